@@ -1,0 +1,1 @@
+"""Launch files, the parameters, the RViz view, and the rover command line."""

@@ -1,0 +1,33 @@
+"""Declare a parameter once: as a field of a core's configuration dataclass.
+
+A configuration is a frozen dataclass whose fields come from `parameter`. The node declares them as
+ROS parameters from these fields; the shipped YAML lists the same names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+T = TypeVar("T", bool, int, float, str)
+
+
+@dataclass(frozen=True)
+class ParameterInfo:
+    description: str  # with the unit in square brackets
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: tuple[str, ...] = ()
+
+
+def parameter(
+    default: T,
+    description: str,
+    *,
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: tuple[str, ...] = (),
+) -> Any:
+    """A dataclass field that is also a ROS parameter."""
+    info = ParameterInfo(description, minimum, maximum, choices)
+    return field(default=default, metadata={"parameter": info})

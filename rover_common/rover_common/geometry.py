@@ -1,0 +1,63 @@
+"""Angles, poses and rotations in the conventions of REP-103: SI, x forward, y left, z up."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Pose of base_link in the map frame (ENU).
+
+    The rotation is Rz(yaw) @ Ry(pitch) @ Rx(roll): yaw counter-clockwise from +x, pitch positive
+    with the nose down, roll positive with the right side down.
+    """
+
+    x: float  # [m]
+    y: float  # [m]
+    yaw: float  # [rad]
+    pitch: float = 0.0  # [rad]
+    roll: float = 0.0  # [rad]
+
+
+def wrap_angle(angle: float) -> float:
+    """The same angle in [-pi, pi) [rad]."""
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
+    """Rotation (3, 3) from base_link to the map frame."""
+    cy, sy = math.cos(pose.yaw), math.sin(pose.yaw)
+    return np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]]) @ tilt_matrix(pose)
+
+
+def tilt_matrix(pose: Pose) -> NDArray[np.float64]:
+    """Rotation (3, 3) from base_link to the level frame below it: pitch and roll without yaw."""
+    cp, sp = math.cos(pose.pitch), math.sin(pose.pitch)
+    cr, sr = math.cos(pose.roll), math.sin(pose.roll)
+    return np.array([[cp, sp * sr, sp * cr], [0.0, cr, -sr], [-sp, cp * sr, cp * cr]])
+
+
+def quaternion_from_pose(pose: Pose) -> tuple[float, float, float, float]:
+    """Unit quaternion (x, y, z, w) of the pose's rotation."""
+    cy, sy = math.cos(pose.yaw / 2), math.sin(pose.yaw / 2)
+    cp, sp = math.cos(pose.pitch / 2), math.sin(pose.pitch / 2)
+    cr, sr = math.cos(pose.roll / 2), math.sin(pose.roll / 2)
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def angles_from_quaternion(x: float, y: float, z: float, w: float) -> tuple[float, float, float]:
+    """(roll, pitch, yaw) [rad] of a unit quaternion, the inverse of `quaternion_from_pose`."""
+    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return roll, pitch, yaw

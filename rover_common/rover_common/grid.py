@@ -1,0 +1,46 @@
+"""Regular grids over the world: which cell is where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+WORLD_SIZE = 200.0  # [m] edge of the square world, origin at its south-west corner
+
+
+@dataclass(frozen=True)
+class GridGeometry:
+    """A grid of square cells; row grows with y, column with x; cell (0, 0) begins at the origin."""
+
+    resolution: float  # [m]
+    rows: int
+    cols: int
+    origin_x: float = 0.0  # [m] map frame
+    origin_y: float = 0.0  # [m]
+
+    @classmethod
+    def of_world(cls, resolution: float) -> GridGeometry:
+        """The grid that covers the simulator's world."""
+        count = round(WORLD_SIZE / resolution)
+        return cls(resolution, count, count)
+
+    def cell_of(self, x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Row and column of the cells that hold the points (x, y) [m]; may lie outside."""
+        col = np.floor((np.asarray(x) - self.origin_x) / self.resolution).astype(np.intp)
+        row = np.floor((np.asarray(y) - self.origin_y) / self.resolution).astype(np.intp)
+        return row, col
+
+    def contains(self, row: ArrayLike, col: ArrayLike) -> NDArray[np.bool_]:
+        """Whether each cell lies inside."""
+        row, col = np.asarray(row), np.asarray(col)
+        return (row >= 0) & (row < self.rows) & (col >= 0) & (col < self.cols)
+
+    def center_of(
+        self, row: ArrayLike, col: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The cells' centres (x, y) [m] in the map frame."""
+        x = self.origin_x + (np.asarray(col) + 0.5) * self.resolution
+        y = self.origin_y + (np.asarray(row) + 0.5) * self.resolution
+        return x, y

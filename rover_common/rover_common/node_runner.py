@@ -1,0 +1,41 @@
+"""Spin one node until SIGINT or SIGTERM and leave with exit code 0."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Sequence
+
+import rclpy
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+
+# An idle executor's endless wait now and then misses a signal; a bounded one never does.
+WAIT_SECONDS = 0.2
+
+
+def run_node(factory: Callable[[], Node], args: Sequence[str] | None = None) -> None:
+    """Make the node and spin it in this thread."""
+    # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
+    # raised at an arbitrary line.
+    signal.signal(signal.SIGINT, lambda *_: None)
+    rclpy.init(args=args)
+    node = None
+    try:
+        node = factory()
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        while rclpy.ok():
+            executor.spin_once(timeout_sec=WAIT_SECONDS)
+    except ExternalShutdownException:
+        pass
+    except RCLError:
+        if rclpy.ok():  # otherwise it is the race with the shutdown
+            raise
+    finally:
+        # A terminal and ros2 launch both send SIGINT: the second must not interrupt the clean-up.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()

@@ -1,0 +1,14 @@
+"""Names of the topics, relative to the nodes' namespace."""
+
+IMAGE = "camera/image_raw"  # sensor_msgs/Image, rgb8
+CAMERA_INFO = "camera/camera_info"  # sensor_msgs/CameraInfo
+ODOMETRY = "odom"  # nav_msgs/Odometry
+STATUS = "rover_status"  # rover_interfaces/RoverStatus
+WORLDMAP = "worldmap"  # nav_msgs/OccupancyGrid, latched
+NAV_POLAR = "nav_polar"  # rover_interfaces/PolarArray
+ROCK_POLAR = "rock_polar"  # rover_interfaces/PolarArray
+FREE_SCAN = "free_scan"  # sensor_msgs/LaserScan
+ROCKS = "rocks"  # rover_interfaces/RockDetectionArray, latched
+VISION_IMAGE = "vision_image"  # sensor_msgs/Image, rgb8
+COMMAND = "cmd_drive"  # rover_interfaces/DriveCommand
+MISSION_STATE = "mission_state"  # rover_interfaces/MissionState, latched

@@ -1,0 +1,1 @@
+"""The mission's state machine: explore, collect the rocks, come home."""

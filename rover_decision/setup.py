@@ -1,0 +1,23 @@
+from setuptools import find_packages, setup
+
+PACKAGE = "rover_decision"
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_packages(),
+    data_files=[
+        ("share/ament_index/resource_index/packages", ["resource/" + PACKAGE]),
+        ("share/" + PACKAGE, ["package.xml"]),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=True,
+    maintainer="Rover maintainers",
+    maintainer_email="maintainers@rover.example",
+    description="The mission's state machine: explore, collect the rocks, come home.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": ["decision_node = rover_decision.node:main"],
+    },
+)

@@ -1,0 +1,1 @@
+"""Turns camera frames and poses into a world map, polar arrays and rock positions."""

@@ -1,0 +1,83 @@
+"""What all tests share: an isolated ROS context per test, and the recordings when they are there."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+
+os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"  # read when a message module is imported
+os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+os.environ.setdefault(
+    "FASTRTPS_DEFAULT_PROFILES_FILE", str(ROOT / "rover_bringup" / "config" / "fastdds.xml")
+)
+
+import pytest  # noqa: E402
+import rclpy  # noqa: E402
+from rclpy.context import Context  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+from rclpy.node import Node  # noqa: E402
+from rclpy.parameter import Parameter  # noqa: E402
+
+WAIT = 10.0  # [s] what a test waits at most for a thing to happen
+
+
+def domain_id() -> int:
+    """A DDS domain of this test process's own; below 100, clear of the ephemeral ports."""
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
+    return 1 + (os.getpid() * 7 + worker) % 99
+
+
+class Ros:
+    """Nodes in one context of their own, spun in the test's thread until a predicate holds."""
+
+    def __init__(self) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, args=[], domain_id=domain_id())
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.nodes: list[Node] = []
+
+    def add(self, factory: Callable[..., Node], **parameters: Any) -> Node:
+        """Make a node with these parameter values and spin it with the others."""
+        overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+        node = factory(context=self.context, parameter_overrides=overrides)
+        self.executor.add_node(node)
+        self.nodes.append(node)
+        return node
+
+    def spin_until(self, predicate: Callable[[], Any], timeout: float = WAIT) -> bool:
+        """Spin until the predicate holds; False when it does not within the timeout [s]."""
+        end = time.monotonic() + timeout
+        while not predicate():
+            left = end - time.monotonic()
+            if left <= 0:
+                return False
+            self.executor.spin_once(timeout_sec=min(left, 0.05))
+        return True
+
+    def close(self) -> None:
+        for node in reversed(self.nodes):
+            self.executor.remove_node(node)
+            node.destroy_node()
+        self.executor.shutdown()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def ros() -> Iterator[Ros]:
+    ros = Ros()
+    yield ros
+    ros.close()
+
+
+@pytest.fixture(scope="session")
+def recordings() -> Path:
+    """The folder of recorded runs; skips where there is none."""
+    folder = Path(os.environ.get("ROVER_DATA", ROOT.parent / "shared" / "data"))
+    if not (folder / "udacity").is_dir():
+        pytest.skip(f"no recordings in {folder}; set ROVER_DATA to their folder")
+    return folder
