@@ -1,1 +1,1 @@
-"""Shared by the rover's packages: dataclasses, camera model, grids, scoring, and the nodes' common parts."""
+"""Shared by the rover's packages: types, camera, grids, scoring, and what the nodes have in common."""

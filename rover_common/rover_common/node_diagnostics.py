@@ -31,7 +31,9 @@ class NodeDiagnostics:
         self._looks = 0
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         # Wall time: it must go on while the simulated clock stands still.
-        self._timer = node.create_timer(PERIOD, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        self._timer = node.create_timer(
+            PERIOD, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
 
     def _look(self) -> None:
         missing = [name for name, connected in self._peers.items() if not connected()]

@@ -26,7 +26,9 @@ def declare_parameters(node: Node, config_class: type[C]) -> C:
     values: dict[str, Any] = {}
     for field in fields(config_class):  # type: ignore[arg-type]
         info: ParameterInfo = field.metadata["parameter"]
-        parameter = node.declare_parameter(field.name, field.default, _descriptor(info, field.default))
+        parameter = node.declare_parameter(
+            field.name, field.default, _descriptor(info, field.default)
+        )
         values[field.name] = parameter.value
         if info.choices and parameter.value not in info.choices:
             raise ParameterError(

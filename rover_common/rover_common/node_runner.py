@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
@@ -14,7 +14,7 @@ from rclpy.node import Node
 WAIT_SECONDS = 0.2
 
 
-def run_node(factory: Callable[[], Node], args: Sequence[str] | None = None) -> None:
+def run_node(factory: Callable[[], Node], args: list[str] | None = None) -> None:
     """Make the node and spin it in this thread."""
     # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
     # raised at an arbitrary line.

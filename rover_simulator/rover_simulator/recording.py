@@ -19,7 +19,7 @@ COLUMNS = (
 )  # fmt: skip
 
 # robocam_2017_05_02_11_16_21_421.jpg: date, time, milliseconds
-STAMPED_NAME = re.compile(r"(\d{4})_(\d\d)_(\d\d)_(\d\d)_(\d\d)_(\d\d)_(\d{3})")
+STAMPED_NAME = re.compile(r"\d{4}(_\d\d){5}_\d{3}")
 NOMINAL_PERIOD = 0.04  # [s] between frames whose names carry no time
 
 YawConvention = Literal["ccw-from-east", "cw-from-north"]
@@ -140,9 +140,8 @@ class _Clock:
         time = self._last + NOMINAL_PERIOD
         match = STAMPED_NAME.search(name)
         if match:
-            *date, milliseconds = (int(group) for group in match.groups())
             try:
-                moment = datetime(*date, milliseconds * 1000)  # type: ignore[arg-type]
+                moment = datetime.strptime(match[0], "%Y_%m_%d_%H_%M_%S_%f")
             except ValueError:
                 moment = None
             if moment is not None:

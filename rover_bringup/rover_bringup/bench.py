@@ -1,0 +1,23 @@
+"""`rover bench NAME`: the benchmarks by name."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+
+BENCHMARKS = {
+    "graph": ("rover_bringup.bench_graph", "telemetry to command through the three nodes"),
+    "perception": ("rover_bringup.bench_perception", "time per frame and map scores"),
+    "simulator": ("rover_bringup.bench_simulator", "the embedded simulator against recordings"),
+}
+
+
+def main(arguments: list[str]) -> int:
+    """Run the benchmark named first."""
+    if not arguments or arguments[0] not in BENCHMARKS:
+        help_asked = bool(arguments) and arguments[0] in ("-h", "--help")
+        lines = [f"  {name:12} {text}" for name, (_, text) in BENCHMARKS.items()]
+        usage = "usage: rover bench NAME [--json]\n\n" + "\n".join(lines)
+        print(usage, file=sys.stdout if help_asked else sys.stderr)
+        return 0 if help_asked else 2
+    return importlib.import_module(BENCHMARKS[arguments[0]][0]).main(arguments[1:])

@@ -1,0 +1,38 @@
+"""The `rover` command line: its subcommands by name."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+
+# Imported only when called: each needs other libraries, and start-up time is felt.
+COMMANDS = {
+    "demo": ("rover_bringup.demo", "a short mission in a world of the project's own"),
+    "mission": ("rover_bringup.mission", "a whole mission in the embedded simulator"),
+    "replay": ("rover_bringup.replay", "play a recorded run through the graph and score the map"),
+    "sim": ("rover_simulator.main", "the embedded simulator alone, for any server"),
+    "bench": ("rover_bringup.bench", "benchmarks: graph, perception, simulator"),
+}
+
+
+def main() -> int:
+    """Run the subcommand named first on the command line."""
+    arguments = sys.argv[1:]
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(usage())
+        return 0
+    name, *rest = arguments
+    if name not in COMMANDS:
+        print(f"rover: no command '{name}'\n\n{usage()}", file=sys.stderr)
+        return 2
+    module = importlib.import_module(COMMANDS[name][0])
+    return module.main(rest)
+
+
+def usage() -> str:
+    lines = [f"  {name:10} {text}" for name, (_, text) in COMMANDS.items()]
+    return "usage: rover COMMAND [options]   (rover COMMAND --help)\n\n" + "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

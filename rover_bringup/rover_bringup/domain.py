@@ -1,0 +1,41 @@
+"""Choose a DDS domain that no other run on this machine uses."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import random
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+# Domain d uses UDP ports from 7400 + 250 d; above 101 they reach the ephemeral ports.
+DOMAINS = range(1, 100)
+
+
+class NoFreeDomainError(RuntimeError):
+    """Every domain is held by another run."""
+
+
+@contextmanager
+def reserved_domain() -> Iterator[int]:
+    """ROS_DOMAIN_ID where it is set; otherwise a free domain, held until the block ends."""
+    chosen = os.environ.get("ROS_DOMAIN_ID")
+    if chosen:
+        yield int(chosen)
+        return
+    for domain in random.sample(DOMAINS, len(DOMAINS)):
+        lock = Path(tempfile.gettempdir()) / f"rover-domain-{domain}.lock"
+        try:
+            handle = lock.open("w")
+        except PermissionError:  # another user's
+            continue
+        with handle:
+            try:
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            yield domain
+            return
+    raise NoFreeDomainError("all DDS domains are in use; end another run or set ROS_DOMAIN_ID")

@@ -1,0 +1,99 @@
+"""Start, watch and end the processes of a run."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+
+LOG_LINES = 15  # of a dead process, shown to the user
+STOP_SECONDS = 5.0  # [s] for a clean end after SIGINT
+
+
+class ProcessDiedError(RuntimeError):
+    """A process of the run ended before it was asked to."""
+
+
+@dataclass(frozen=True)
+class _Child:
+    name: str
+    process: subprocess.Popen[bytes]
+    log: Path
+
+
+class Processes:
+    """The processes of one run; all of them end when the `with` block does."""
+
+    def __init__(self, log_dir: Path, environment: Mapping[str, str]) -> None:
+        self._log_dir = log_dir
+        self._environment = {**os.environ, **environment}
+        self._children: list[_Child] = []
+        log_dir.mkdir(parents=True, exist_ok=True)
+
+    def start(self, name: str, command: Sequence[str]) -> None:
+        """Start a command in a session of its own; its output goes to `<log_dir>/<name>.log`."""
+        log = self._log_dir / f"{name}.log"
+        with log.open("wb") as output:
+            process = subprocess.Popen(
+                command,
+                env=self._environment,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        self._children.append(_Child(name, process, log))
+
+    def check(self) -> None:
+        """Raise ProcessDiedError, with the last lines of its log, when one has ended."""
+        for child in self._children:
+            code = child.process.poll()
+            if code is not None:
+                raise ProcessDiedError(
+                    f"{child.name} ended with exit code {code}; the end of {child.log}:\n"
+                    + _tail(child.log)
+                )
+
+    def ended(self, name: str) -> int | None:
+        """The exit code of the named process, None while it runs."""
+        return next(c for c in self._children if c.name == name).process.poll()
+
+    def stop(self) -> None:
+        """SIGINT to all, in the order they were started last to first; SIGKILL to what stays."""
+        for child in reversed(self._children):
+            _signal(child.process, signal.SIGINT)
+        deadline = time.monotonic() + STOP_SECONDS
+        for child in self._children:
+            try:
+                child.process.wait(max(0.0, deadline - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                _signal(child.process, signal.SIGKILL)
+                child.process.wait()
+        self._children.clear()
+
+    def __enter__(self) -> Processes:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+
+def _signal(process: subprocess.Popen[bytes], number: signal.Signals) -> None:
+    """Signal the process's whole session, as a terminal would."""
+    if process.poll() is None:
+        os.killpg(process.pid, number)
+
+
+def _tail(log: Path) -> str:
+    lines = log.read_text(errors="replace").splitlines()
+    return "\n".join(lines[-LOG_LINES:]) or "(empty)"
