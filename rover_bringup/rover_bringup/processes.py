@@ -33,6 +33,7 @@ class Processes:
         self._log_dir = log_dir
         self._environment = {**os.environ, **environment}
         self._children: list[_Child] = []
+        self.stop_seconds = STOP_SECONDS
         log_dir.mkdir(parents=True, exist_ok=True)
 
     def start(self, name: str, command: Sequence[str]) -> None:
@@ -67,7 +68,7 @@ class Processes:
         """SIGINT to all, in the order they were started last to first; SIGKILL to what stays."""
         for child in reversed(self._children):
             _signal(child.process, signal.SIGINT)
-        deadline = time.monotonic() + STOP_SECONDS
+        deadline = time.monotonic() + self.stop_seconds
         for child in self._children:
             try:
                 child.process.wait(max(0.0, deadline - time.monotonic()))

@@ -1,1 +1,1 @@
-"""Shared by the rover's packages: types, camera, grids, scoring, and what the nodes have in common."""
+"""Shared by the rover's packages: types, camera, grids, scoring, parts of nodes."""
