@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from rover_simulator.recording import RecordedFrame, Recording
 from rover_simulator.telemetry_format import format_telemetry
-from rover_simulator.unity_client import UnityClient
+from rover_simulator.unity_client import ANSWERED_EVENTS, Event, UnityClient
 
 # Simulated time begins here: a ROS clock that reads zero counts as not yet set.
 START_TIME = 1.0  # [s]
@@ -50,8 +50,7 @@ def play(
     start = time.perf_counter()
 
     def take_answer() -> None:
-        if client.receive(ANSWER_TIMEOUT) is None:
-            raise NoAnswerError(f"no answer within {ANSWER_TIMEOUT:.0f} s")
+        wait_for_answer(client)
         latencies.append(time.perf_counter() - sent_at.popleft())
         on_answer()
 
@@ -75,6 +74,14 @@ def play(
         seconds=time.perf_counter() - start,
         last_time=last_time,
     )
+
+
+def wait_for_answer(client: UnityClient) -> Event:
+    """The next event that the simulator answers with a telemetry; raises NoAnswerError."""
+    while (event := client.receive(ANSWER_TIMEOUT)) is not None:
+        if event.name in ANSWERED_EVENTS:
+            return event
+    raise NoAnswerError(f"no answer within {ANSWER_TIMEOUT:.0f} s")
 
 
 def telemetry_of(frame: RecordedFrame, jpeg: bytes) -> dict[str, str]:

@@ -1,0 +1,69 @@
+"""The telemetry object as the Unity simulator writes it: every value a string, in this order."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Sequence
+
+from rover_common.geometry import Pose
+
+Samples = Sequence[tuple[float, float]]
+
+
+def format_telemetry(
+    *,
+    pose: Pose,
+    speed: float,
+    throttle: float,
+    brake: float,
+    steering_angle: float,
+    near_sample: bool,
+    picking_up: bool,
+    sample_count: int,
+    samples: Samples,
+    image: bytes,
+    sim_time: float | None = None,
+    separator: str = ";",
+    decimal: str = ".",
+) -> dict[str, str]:
+    """The object of one telemetry event.
+
+    Takes SI and REP-103: speeds in [m/s], angles in [rad], samples as (x, y) [m], and a JPEG file.
+    `decimal` is the mark of the machine's culture; `sim_time` [s] is this project's one addition.
+    """
+
+    def number(value: float, digits: int = 4) -> str:
+        return _fixed(value, digits).replace(".", decimal)
+
+    telemetry = {
+        "steering_angle": number(math.degrees(steering_angle)),
+        "throttle": number(throttle),
+        "brake": number(brake),
+        "speed": number(speed),
+        "position": separator.join((number(pose.x), number(pose.y))),
+        "pitch": number(_circle_deg(pose.pitch)),
+        "yaw": number(_circle_deg(pose.yaw)),
+        "roll": number(_circle_deg(-pose.roll)),  # the simulator's is positive right side up
+        "near_sample": str(int(near_sample)),
+        "picking_up": str(int(picking_up)),
+        "sample_count": str(sample_count),
+        "samples_x": separator.join(number(x, 2) for x, _ in samples),
+        "samples_y": separator.join(number(y, 2) for _, y in samples),
+        "image": base64.b64encode(image).decode("ascii"),
+    }
+    if sim_time is not None:
+        telemetry["sim_time"] = number(sim_time)
+    return telemetry
+
+
+def _fixed(value: float, digits: int) -> str:
+    text = f"{value:.{digits}f}"
+    # No minus sign before a value that rounds to zero.
+    return text.removeprefix("-") if float(text) == 0.0 else text
+
+
+def _circle_deg(angle: float) -> float:
+    """An angle [rad] in degrees, [0, 360)."""
+    degrees = math.degrees(angle) % 360.0
+    return 0.0 if degrees == 360.0 else degrees  # the remainder of a tiny negative angle

@@ -1,0 +1,174 @@
+"""Connect to a rover server exactly as the Unity simulator does.
+
+The dialect is Engine.IO 3 behind a query that says 4: the client sends the pings, never a
+Socket.IO connect packet, and splits its long messages into WebSocket continuation frames.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import websocket
+
+FRAGMENT_BYTES = 1016
+PING_PERIOD = 25.0  # [s] after each pong
+RECONNECT_PAUSE = 0.005  # [s]
+
+# Each of these events is answered with exactly one telemetry.
+ANSWERED_EVENTS = frozenset({"data", "manual", "pickup", "fixed_turn"})
+OPEN = "open"  # the server's handshake packet; the simulator sends a telemetry on it, unasked
+
+
+class ProtocolError(RuntimeError):
+    """The server sent what the simulator cannot parse; the simulator closes the socket then."""
+
+
+class ConnectionLostError(ConnectionError):
+    """The connection was refused, or ended."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """`open`, or a Socket.IO event of the server."""
+
+    name: str
+    data: Mapping[str, Any] = field(default_factory=dict)
+
+
+class UnityClient:
+    """One connection; no thread of its own, so `receive` has to be called for pings to be sent."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self._url = f"ws://{host}:{port}/socket.io/?EIO=4&transport=websocket"
+        self._socket: websocket.WebSocket | None = None
+        self._next_ping: float | None = None
+
+    def connect(self, timeout: float) -> None:
+        """Open the socket and send the first ping; raises ConnectionLostError."""
+        socket = websocket.WebSocket(skip_utf8_validation=True)
+        socket.settimeout(timeout)
+        try:
+            socket.connect(self._url, suppress_origin=True)
+        except (OSError, websocket.WebSocketException) as error:
+            raise ConnectionLostError(f"{self._url}: {error}") from error
+        self._socket = socket
+        self._send("2")
+        self._next_ping = None
+
+    def connect_until(self, stopped: Callable[[], bool]) -> bool:
+        """Try again and again, as the simulator does; False when `stopped` came first."""
+        while not stopped():
+            try:
+                self.connect(timeout=5.0)
+            except ConnectionLostError:
+                time.sleep(RECONNECT_PAUSE)
+            else:
+                return True
+        return False
+
+    def send_telemetry(self, telemetry: Mapping[str, str]) -> None:
+        """Raises ConnectionLostError."""
+        arguments = json.dumps(["telemetry", telemetry], separators=(",", ":"))
+        self._send("42" + arguments)
+
+    def receive(self, timeout: float) -> Event | None:
+        """The next event, or None after `timeout` [s].
+
+        Answers and sends pings on the way. Raises ConnectionLostError, and ProtocolError after
+        closing the socket.
+        """
+        end = time.monotonic() + timeout
+        while True:
+            self._ping_when_due()
+            left = end - time.monotonic()
+            if left <= 0:
+                return None
+            message = self._receive_text(left)
+            event = None if message is None else self._event(message)
+            if event is not None:
+                return event
+
+    def close(self, say_goodbye: bool = False) -> None:
+        """Close the socket; `say_goodbye` sends what the application sends when it is quit."""
+        if self._socket is None:
+            return
+        with contextlib.suppress(ConnectionLostError):
+            if say_goodbye:
+                self._send("41")
+                self._send("1")
+        self._socket.shutdown()
+        self._socket = None
+
+    def _event(self, message: str) -> Event | None:
+        """What a message means; None for those without consequence."""
+        if message.startswith("42"):
+            return self._parse_event(message[2:])
+        if message.startswith("0"):
+            return Event(OPEN)
+        if message.startswith("2"):
+            self._send("3")
+        elif message.startswith("3"):
+            self._next_ping = time.monotonic() + PING_PERIOD
+        return None  # also 40, the connect acknowledgement, which the simulator ignores
+
+    def _parse_event(self, text: str) -> Event:
+        try:
+            members = json.loads(text)
+        except ValueError:
+            members = None
+        if isinstance(members, list) and len(members) in (1, 2) and isinstance(members[0], str):
+            data = members[1] if len(members) == 2 else {}
+            if isinstance(data, dict):
+                return Event(members[0], data)
+        self.close()
+        raise ProtocolError(f"not an event with one object: {text[:80]}")
+
+    def _receive_text(self, timeout: float) -> str | None:
+        socket = self._connected()
+        socket.settimeout(min(timeout, 1.0))  # wakes for a ping that falls due
+        try:
+            opcode, data = socket.recv_data()
+        except websocket.WebSocketTimeoutException:
+            return None
+        except (OSError, websocket.WebSocketException) as error:
+            raise ConnectionLostError(str(error)) from error
+        if opcode == websocket.ABNF.OPCODE_CLOSE:
+            raise ConnectionLostError("closed by the server")
+        return bytes(data).decode("utf-8", errors="replace")
+
+    def _ping_when_due(self) -> None:
+        if self._next_ping is not None and time.monotonic() >= self._next_ping:
+            self._next_ping = None
+            self._send("2")
+
+    def _send(self, text: str) -> None:
+        payload = text.encode("ascii")
+        fragments = [
+            payload[start : start + FRAGMENT_BYTES]
+            for start in range(0, len(payload), FRAGMENT_BYTES)
+        ]
+        last = len(fragments) - 1
+        frames = b"".join(
+            websocket.ABNF(
+                int(index == last),
+                opcode=websocket.ABNF.OPCODE_CONT if index else websocket.ABNF.OPCODE_TEXT,
+                data=fragment,
+            ).format()
+            for index, fragment in enumerate(fragments)
+        )
+        socket = self._connected()
+        socket.settimeout(5.0)
+        try:
+            socket.sock.sendall(frames)
+        except OSError as error:
+            raise ConnectionLostError(str(error)) from error
+
+    def _connected(self) -> websocket.WebSocket:
+        if self._socket is None:
+            raise ConnectionLostError("not connected")
+        return self._socket
