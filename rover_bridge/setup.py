@@ -14,7 +14,7 @@ setup(
     zip_safe=True,
     maintainer="Rover maintainers",
     maintainer_email="maintainers@rover.example",
-    description="Turns the simulator's Socket.IO telemetry into ROS topics and answers it with drive commands.",
+    description="Turns the simulator's telemetry into ROS topics and answers it with commands.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={

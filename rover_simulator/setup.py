@@ -14,7 +14,7 @@ setup(
     zip_safe=True,
     maintainer="Rover maintainers",
     maintainer_email="maintainers@rover.example",
-    description="Stands in for the Unity simulator on its own wire protocol: embedded worlds and recorded runs.",
+    description="Stands in for the Unity simulator on its own wire protocol.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={

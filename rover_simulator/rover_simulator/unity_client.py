@@ -18,6 +18,7 @@ import websocket
 FRAGMENT_BYTES = 1016
 PING_PERIOD = 25.0  # [s] after each pong
 RECONNECT_PAUSE = 0.005  # [s]
+SEND_TIMEOUT = 5.0  # [s]
 
 # Each of these events is answered with exactly one telemetry.
 ANSWERED_EVENTS = frozenset({"data", "manual", "pickup", "fixed_turn"})
@@ -161,10 +162,11 @@ class UnityClient:
             ).format()
             for index, fragment in enumerate(fragments)
         )
-        socket = self._connected()
-        socket.settimeout(5.0)
+        raw_socket = self._connected().sock
+        assert raw_socket is not None
+        raw_socket.settimeout(SEND_TIMEOUT)
         try:
-            socket.sock.sendall(frames)
+            raw_socket.sendall(frames)
         except OSError as error:
             raise ConnectionLostError(str(error)) from error
 

@@ -1,0 +1,191 @@
+"""The bridge node: a simulator's telemetry to topics, decisions back to the simulator.
+
+Publishes camera/image_raw, camera/camera_info, odom, rover_status, bridge_state (latched: who
+drives), /tf, /tf_static, /clock (when the telemetry carries sim_time) and /diagnostics.
+Subscribes cmd_drive. Parameters: see BridgeConfig.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from typing import Any
+
+from nav_msgs.msg import Odometry
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock as ClockMsg
+from rover_interfaces.msg import DriveCommand, RoverStatus
+from sensor_msgs.msg import CameraInfo, Image
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+from rover_bridge import conversions
+from rover_bridge.codec import decode_telemetry, encode_drive
+from rover_bridge.config import BridgeConfig
+from rover_bridge.errors import TelemetryError
+from rover_bridge.exchange import Answer, Exchange, Ticket
+from rover_bridge.numbers import uses_decimal_comma
+from rover_bridge.server import Connected, ServerEvent, SocketServer, TelemetryReceived
+from rover_common import frames, qos, topics
+from rover_common.conversions import NANOSECONDS, command_of, image_message_of, odometry_of
+from rover_common.dataflow import SAFE_COMMAND, Telemetry
+from rover_common.node_diagnostics import NodeDiagnostics
+from rover_common.node_parameters import declare_parameters
+from rover_common.node_runner import run_node
+
+LOG_PERIOD = 5.0  # [s] between two lines about the same kind of trouble
+DEADLINE_LOOKS = 4  # looks for late answers per deadline
+
+
+class BridgeNode(Node):
+    """Turns server events into topics, and commands into answers, in the executor's thread."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__("bridge_node", **kwargs)
+        config = declare_parameters(self, BridgeConfig)
+        self._exchange = Exchange(config.answer_deadline)
+        self._decimal_comma = False
+        self._make_endpoints()
+        self._inbox: deque[ServerEvent] = deque()
+        self._arrival = self.create_guard_condition(self._on_arrivals)
+        # Wall time: a deadline that waited for simulated time would never come.
+        self._deadline_timer = self.create_timer(
+            config.answer_deadline / DEADLINE_LOOKS,
+            self._on_deadline_look,
+            clock=Clock(clock_type=ClockType.STEADY_TIME),
+        )
+        self._server = SocketServer(config.host, config.port, self._on_server_event)
+        self.port = self._server.port
+        self.get_logger().info(f"listening on {config.host}:{self.port}")
+        self._publish_driver()
+
+    def destroy_node(self) -> None:
+        """Close the connections, end the server's thread, then the node."""
+        if hasattr(self, "_server"):
+            self._server.close()
+        super().destroy_node()
+
+    def _make_endpoints(self) -> None:
+        publish = self.create_publisher
+        self._image = publish(Image, topics.IMAGE, qos.FRAME)
+        self._odometry = publish(Odometry, topics.ODOMETRY, qos.FRAME)
+        self._status = publish(RoverStatus, topics.STATUS, qos.FRAME)
+        self._camera_info = publish(CameraInfo, topics.CAMERA_INFO, qos.FRAME)
+        self._state = publish(String, topics.BRIDGE_STATE, qos.LATCHED)
+        self._clock_publisher = publish(ClockMsg, "/clock", qos.CLOCK)
+        self._tf = publish(TFMessage, "/tf", qos.TF)
+        self._tf_static = publish(TFMessage, "/tf_static", qos.TF_STATIC)
+        self._tf_static.publish(conversions.static_transforms_of(self._now()))
+        command = self.create_subscription(
+            DriveCommand, topics.COMMAND, self._on_command, qos.FRAME
+        )
+        peers = {
+            "perception": lambda: self._image.get_subscription_count() > 0,
+            "odometry": lambda: self._odometry.get_subscription_count() > 1,
+            "decision": lambda: (
+                command.get_publisher_count() > 0 and self._status.get_subscription_count() > 0
+            ),
+        }
+        self._diagnostics = NodeDiagnostics(self, peers)
+
+    def _on_server_event(self, event: ServerEvent) -> None:
+        """Called in the server's thread."""
+        self._inbox.append(event)
+        self._arrival.trigger()
+
+    def _on_arrivals(self) -> None:
+        while self._inbox:
+            event = self._inbox.popleft()
+            if isinstance(event, TelemetryReceived):
+                self._on_telemetry(event)
+            elif isinstance(event, Connected):
+                self._diagnostics.counts["connections"] += 1
+                self.get_logger().info(f"client {event.client} connected")
+            else:
+                self.get_logger().info(f"client {event.client} disconnected")
+                self._exchange.leave(event.client)
+                self._publish_driver()
+
+    def _on_telemetry(self, event: TelemetryReceived) -> None:
+        driver = self._exchange.driver
+        if not self._exchange.admit(event.client):
+            self._warn("another client drives: this one is answered with the brake")
+            self._send(Answer(event.client, SAFE_COMMAND, "second_client"))
+            return
+        if driver is None:
+            self._publish_driver()
+        try:
+            telemetry = decode_telemetry(event.wire)
+        except TelemetryError as error:
+            self._warn(f"telemetry dropped: {error}")
+            self._send(Answer(event.client, SAFE_COMMAND, error.counter))
+            return
+        speed = event.wire["speed"]  # type: ignore[index]
+        self._decimal_comma = uses_decimal_comma(speed)
+        self._diagnostics.counts["telemetries"] += 1
+        stamp = self._exchange.next_stamp(self._stamp_of(telemetry))
+        self._exchange.open(
+            Ticket(
+                client=event.client,
+                stamp=stamp,
+                arrived=time.monotonic(),
+                speed=telemetry.speed,
+                near_sample=telemetry.near_sample,
+                picking_up=telemetry.picking_up,
+            )
+        )
+        self._publish(stamp, telemetry)
+
+    def _publish(self, stamp: int, telemetry: Telemetry) -> None:
+        """First what the decision waits for, the largest message first of all."""
+        image = image_message_of(stamp, frames.CAMERA_OPTICAL, telemetry.image)
+        self._odometry.publish(odometry_of(stamp, telemetry.pose, telemetry.speed))
+        self._image.publish(image)
+        self._status.publish(conversions.status_of(stamp, telemetry))
+        if telemetry.sim_time is not None:
+            self._clock_publisher.publish(conversions.clock_of(stamp))
+        self._tf.publish(conversions.body_transform_of(stamp, telemetry.pose))
+        self._camera_info.publish(conversions.camera_info_of(stamp))
+
+    def _on_command(self, message: DriveCommand) -> None:
+        answer = self._exchange.answer(*command_of(message))
+        if answer is None:
+            self._diagnostics.counts["commands_late"] += 1
+            return
+        if answer.why == "pickup_refused":
+            self._warn("pickup refused: no sample in reach, or not standing still")
+        self._send(answer)
+
+    def _on_deadline_look(self) -> None:
+        for answer in self._exchange.expire(time.monotonic()):
+            self._warn("no decision in time: braking")
+            self._send(answer)
+
+    def _send(self, answer: Answer) -> None:
+        self._diagnostics.counts[answer.why] += 1
+        if answer.command.pickup:
+            self._server.send(answer.client, "pickup", {})
+        else:
+            drive = encode_drive(answer.command, self._decimal_comma)
+            self._server.send(answer.client, "data", drive)
+
+    def _publish_driver(self) -> None:
+        driver = self._exchange.driver
+        self._state.publish(String(data="disconnected" if driver is None else "connected"))
+
+    def _stamp_of(self, telemetry: Telemetry) -> int:
+        if telemetry.sim_time is None:
+            return self._now()
+        return round(telemetry.sim_time * NANOSECONDS)
+
+    def _now(self) -> int:
+        return int(self.get_clock().now().nanoseconds)
+
+    def _warn(self, text: str) -> None:
+        self.get_logger().warning(text, throttle_duration_sec=LOG_PERIOD)
+
+
+def main() -> None:
+    """Entry point of `ros2 run rover_bridge bridge_node`."""
+    run_node(BridgeNode)

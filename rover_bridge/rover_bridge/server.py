@@ -1,0 +1,145 @@
+"""The Socket.IO server in a thread of its own, on eventlet's hub, never monkey-patched."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import logging
+import os
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import eventlet
+import eventlet.wsgi
+import socketio
+from eventlet.hubs import trampoline
+
+from rover_bridge.dialects import BilingualServer, accept_older_queries
+
+MAX_MESSAGE_BYTES = 16 * 2**20  # a telemetry has about 10 kB; the library's default is 1 MB
+PING_TIMEOUT = 60.0  # [s] what the simulator is told, and ignores
+STOP_SECONDS = 5.0  # [s]
+
+
+class PortInUseError(OSError):
+    """Another program listens on the port."""
+
+
+@dataclass(frozen=True)
+class Connected:
+    client: str
+
+
+@dataclass(frozen=True)
+class Disconnected:
+    client: str
+
+
+@dataclass(frozen=True)
+class TelemetryReceived:
+    client: str
+    wire: object  # as it came: usually the telemetry object
+
+
+ServerEvent = Connected | Disconnected | TelemetryReceived
+
+
+class SocketServer:
+    """Hands over what arrives by `on_event`, called in the server's thread; it must not block."""
+
+    def __init__(self, host: str, port: int, on_event: Callable[[ServerEvent], None]) -> None:
+        """Listens when it returns; raises PortInUseError or OSError."""
+        self._on_event = on_event
+        self._outbox: deque[tuple[str, str, dict[str, Any]] | None] = deque()
+        self._wake_read, self._wake_write = os.pipe()
+        os.set_blocking(self._wake_read, False)
+        self._started: deque[int | OSError] = deque()
+        ready = threading.Event()
+        self._thread = threading.Thread(
+            target=self._run, args=(host, port, ready), name="socket-server"
+        )
+        self._thread.start()
+        ready.wait()
+        outcome = self._started[0]
+        if isinstance(outcome, OSError):
+            self._join()
+            if outcome.errno == errno.EADDRINUSE:
+                raise PortInUseError(
+                    f"port {port} of {host} is in use: end the other program, or choose a port"
+                ) from outcome
+            raise outcome
+        self.port = outcome
+
+    def send(self, client: str, event: str, data: dict[str, Any]) -> None:
+        """Send an event to a client, from any thread; a client that has left is ignored."""
+        self._outbox.append((client, event, data))
+        os.write(self._wake_write, b"x")
+
+    def close(self) -> None:
+        """Close all connections and end the thread."""
+        self._outbox.append(None)
+        os.write(self._wake_write, b"x")
+        self._join()
+
+    def _join(self) -> None:
+        self._thread.join(STOP_SECONDS)
+        os.close(self._wake_read)
+        os.close(self._wake_write)
+
+    def _run(self, host: str, port: int, ready: threading.Event) -> None:
+        try:
+            listener = eventlet.listen((host, port))
+        except OSError as error:
+            self._started.append(error)
+            ready.set()
+            return
+        server = self._socketio_server()
+        app = accept_older_queries(socketio.WSGIApp(server))
+        quiet = logging.getLogger("rover_bridge.wsgi")
+        quiet.setLevel(logging.CRITICAL)
+        pool = eventlet.GreenPool(100)
+        acceptor = eventlet.spawn(
+            eventlet.wsgi.server, listener, app, log=quiet, log_output=False, custom_pool=pool
+        )
+        self._started.append(listener.getsockname()[1])
+        ready.set()
+        self._pump(server)
+        acceptor.kill()
+        for worker in list(pool.coroutines_running):
+            worker.kill()
+        with contextlib.suppress(OSError):
+            listener.close()
+
+    def _socketio_server(self) -> BilingualServer:
+        server = BilingualServer(
+            async_mode="eventlet",
+            async_handlers=False,  # keeps the events of one client in order
+            max_http_buffer_size=MAX_MESSAGE_BYTES,
+            ping_timeout=PING_TIMEOUT,
+            monitor_clients=False,  # a connection's own timeout does that
+            cors_allowed_origins="*",
+        )
+        server.on("connect", lambda client, *_: self._on_event(Connected(client)))
+        server.on("disconnect", lambda client, *_: self._on_event(Disconnected(client)))
+        server.on("telemetry", self._on_telemetry)
+        return server
+
+    def _on_telemetry(self, client: str, *arguments: object) -> None:
+        wire = arguments[0] if len(arguments) == 1 else arguments
+        self._on_event(TelemetryReceived(client, wire))
+
+    def _pump(self, server: BilingualServer) -> None:
+        """Send what other threads put into the outbox, until the server is closed."""
+        while True:
+            trampoline(self._wake_read, read=True)
+            with contextlib.suppress(BlockingIOError):
+                os.read(self._wake_read, 4096)
+            while self._outbox:
+                item = self._outbox.popleft()
+                if item is None:
+                    return
+                client, event, data = item
+                server.emit(event, data, to=client)
