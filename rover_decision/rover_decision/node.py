@@ -1,0 +1,144 @@
+"""The decision node: percepts to drive commands, one for every frame.
+
+Subscribes odom, rover_status, nav_polar, rock_polar, free_scan (joined by stamp), rocks and
+worldmap. Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and
+/diagnostics.
+Services ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger). Parameters: see
+DecisionConfig.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rclpy.node import Node
+from rover_interfaces.msg import (
+    DriveCommand,
+    MissionState,
+    PolarArray,
+    RockDetectionArray,
+    RoverStatus,
+)
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import MarkerArray
+
+from rover_common import conversions, qos, topics
+from rover_common.dataflow import GridMap, Percept, Rock
+from rover_common.node_diagnostics import NodeDiagnostics
+from rover_common.node_parameters import declare_parameters
+from rover_common.node_runner import run_node
+from rover_common.stamp_join import StampJoin
+from rover_decision.config import DecisionConfig
+from rover_decision.conversions import markers_of, mission_state_of
+from rover_decision.dataflow import Decision, Snapshot
+from rover_decision.mission import Mission
+from rover_decision.states import State
+
+FRAME_PARTS = {
+    topics.ODOMETRY: Odometry,
+    topics.STATUS: RoverStatus,
+    topics.NAV_POLAR: PolarArray,
+    topics.ROCK_POLAR: PolarArray,
+    topics.FREE_SCAN: LaserScan,
+}
+REPORT_PERIOD = 500_000_000  # [ns] of frame time
+
+
+class DecisionNode(Node):
+    """Collects one frame's parts into a snapshot, ticks the mission, publishes what it decided."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__("decision_node", **kwargs)
+        self._mission = Mission(declare_parameters(self, DecisionConfig))
+        self._join = StampJoin(tuple(FRAME_PARTS))
+        self._rocks: tuple[Rock, ...] = ()
+        self._grid: GridMap | None = None
+        self._reported: tuple[int, State] | None = None
+        self._command = self.create_publisher(DriveCommand, topics.COMMAND, qos.FRAME)
+        self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
+        self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
+        parts = [
+            self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
+            for topic, kind in FRAME_PARTS.items()
+        ]
+        self.create_subscription(RockDetectionArray, topics.ROCKS, self._on_rocks, qos.LATCHED)
+        self.create_subscription(OccupancyGrid, topics.WORLDMAP, self._on_grid, qos.LATCHED)
+        self._make_services()
+        peers = {
+            "bridge": lambda: self._command.get_subscription_count() > 0,
+            "frames": lambda: all(part.get_publisher_count() > 0 for part in parts),
+        }
+        self._diagnostics = NodeDiagnostics(self, peers)
+
+    def _make_services(self) -> None:
+        self._serve("pause", self._mission.pause)
+        self._serve("resume", self._mission.resume)
+        self._serve("return_home", self._mission.return_home)
+        self._serve("reset", self._reset)
+
+    def _serve(self, name: str, action: Callable[[], bool]) -> None:
+        def answer(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            response.success = action()
+            response.message = f"{name}: {self._mission.state.name}"
+            self.get_logger().info(response.message)
+            return response
+
+        self.create_service(Trigger, f"~/{name}", answer)
+
+    def _reset(self) -> bool:
+        self._mission.reset()
+        self._join.clear()
+        return True
+
+    def _on_rocks(self, message: RockDetectionArray) -> None:
+        self._rocks = conversions.rocks_of(message)
+
+    def _on_grid(self, message: OccupancyGrid) -> None:
+        self._grid = conversions.grid_of(message)
+
+    def _on_part(self, topic: str, message: Any) -> None:
+        stamp = conversions.stamp_of(message.header.stamp)
+        parts = self._join.add(topic, stamp, message)
+        self._diagnostics.counts["frames_incomplete"] = self._join.dropped
+        if parts is not None:
+            self._on_frame(stamp, parts)
+
+    def _on_frame(self, stamp: int, parts: dict[str, Any]) -> None:
+        snapshot = self._snapshot(stamp, parts)
+        decision = self._mission.tick(snapshot)
+        now = int(self.get_clock().now().nanoseconds)
+        self._command.publish(conversions.command_message_of(now, stamp, decision.command))
+        self._diagnostics.counts["frames"] += 1
+        self._report(stamp, decision)
+
+    def _snapshot(self, stamp: int, parts: dict[str, Any]) -> Snapshot:
+        percept = Percept(
+            stamp=stamp,
+            nav=conversions.polar_of(parts[topics.NAV_POLAR]),
+            rock=conversions.polar_of(parts[topics.ROCK_POLAR]),
+            scan=conversions.scan_of(parts[topics.FREE_SCAN]),
+            rocks=self._rocks,
+        )
+        vehicle = conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS])
+        return Snapshot(vehicle, percept, self._grid)
+
+    def _report(self, stamp: int, decision: Decision) -> None:
+        """On every change of state, and twice a second."""
+        changed = self._reported is None or self._reported[1] is not decision.state
+        if changed:
+            self.get_logger().info(f"{decision.state.name}: {decision.reason}")
+        elif self._reported is not None and abs(stamp - self._reported[0]) < REPORT_PERIOD:
+            return
+        self._reported = (stamp, decision.state)
+        self._state.publish(mission_state_of(stamp, decision))
+        if self._markers.get_subscription_count() > 0:
+            self._markers.publish(markers_of(stamp, self._mission.crumbs.points, self._rocks))
+
+
+def main() -> None:
+    """Entry point of `ros2 run rover_decision decision_node`."""
+    run_node(DecisionNode)

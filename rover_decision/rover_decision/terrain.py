@@ -1,0 +1,55 @@
+"""The free ground ahead, as the free scan shows it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.dataflow import FreeScan
+
+
+@dataclass(frozen=True)
+class Terrain:
+    """Obstacle points of one scan, and the width that the rover needs."""
+
+    bearings: NDArray[np.float64]  # (n,) [rad] left positive
+    ranges: NDArray[np.float64]  # (n,) [m], finite
+    corridor: float  # [m] half width
+
+    @classmethod
+    def of(cls, scan: FreeScan, corridor: float) -> Terrain:
+        ranges = np.minimum(scan.ranges, scan.range_max).astype(np.float64)
+        bearings = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        return cls(bearings, ranges, corridor)
+
+    def clearance(self, bearing: float) -> float:
+        """Free length [m] of the straight corridor in this direction; 0 when nothing is seen."""
+        if len(self.ranges) == 0:
+            return 0.0
+        angle = self.bearings - bearing
+        ahead = self.ranges * np.cos(angle)
+        aside = np.abs(self.ranges * np.sin(angle))
+        blocking = (aside < self.corridor) & (ahead > 0)
+        return float(ahead[blocking].min()) if blocking.any() else float(self.ranges.max())
+
+    def best_bearing(self, wanted: float, length: float) -> float:
+        """The bearing closest to the wanted one whose corridor is free for `length` [m].
+
+        Where none is, the one with the longest corridor.
+        """
+        if len(self.ranges) == 0:
+            return wanted
+        step = max(1, round(math.radians(4.0) / max(1e-3, self._increment())))
+        candidates = self.bearings[::step]
+        free = np.array([self.clearance(float(candidate)) for candidate in candidates])
+        open_way = free >= length
+        if not open_way.any():
+            return float(candidates[np.argmax(free)])
+        distance = np.where(open_way, np.abs(candidates - wanted), np.inf)
+        return float(candidates[np.argmin(distance)])
+
+    def _increment(self) -> float:
+        return float(self.bearings[1] - self.bearings[0]) if len(self.bearings) > 1 else 1.0
