@@ -15,13 +15,13 @@ from rover_common.dataflow import FreeScan
 class Terrain:
     """Obstacle points of one scan, and the width that the rover needs."""
 
-    bearings: NDArray[np.float64]  # (n,) [rad] left positive
-    ranges: NDArray[np.float64]  # (n,) [m], finite
+    bearings: NDArray[np.floating]  # (n,) [rad] left positive
+    ranges: NDArray[np.floating]  # (n,) [m], finite
     corridor: float  # [m] half width
 
     @classmethod
     def of(cls, scan: FreeScan, corridor: float) -> Terrain:
-        ranges = np.minimum(scan.ranges, scan.range_max).astype(np.float64)
+        ranges = np.asarray(np.minimum(scan.ranges, scan.range_max), np.float64)
         bearings = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
         return cls(bearings, ranges, corridor)
 

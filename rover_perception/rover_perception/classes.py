@@ -1,0 +1,90 @@
+"""What each pixel shows, by the simulator's measured colours, and how far the ground reaches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_perception.view import View
+
+# Red channel: sunlit sand 241 +- 12, shadowed 208 +- 13, walls 36 +- 19. Where sand blends into
+# the wall, this level is about the edge of the flat floor: 202 and 170 (shadow) at a sand weight of
+# 0.6 to 0.8, 149 at 0.4 to 0.6.
+GROUND_RED = 170.0
+# Yellow samples: blue is 0.08 (near) to 0.5 (12 m away) of green; sand 0.93, walls 0.84. The JPEG
+# files hold colour at half resolution, which spreads yellow over the bright sand around a sample;
+# there it is paler, and brighter (green 225 +- 18) than the sample itself (at most 194).
+ROCK_BLUE_OF_GREEN = 0.65
+ROCK_GREEN = (55, 200)  # darkest shaded side, brightest highlight
+
+# Flat ground ends below the horizon. Ground that reaches up to it stands on a slope, which begins
+# nobody knows where; only the nearest part of such a column is taken.
+SLOPE_MARGIN = 1.0  # [px]
+SLOPE_RANGE = 4.0  # [m]
+ABOVE_HORIZON = 3  # [px] looked at, to see whether the ground goes on
+
+
+@dataclass(frozen=True)
+class Columns:
+    """How far the ground reaches in each of the image's columns, from the bottom up."""
+
+    horizon: NDArray[np.floating]  # (width,) row of the horizon [px]
+    reach: NDArray[np.floating]  # (width,) row where the ground ends [px], never above the horizon
+    blocked: NDArray[np.bool_]  # (width,) whether an obstacle stands there
+
+
+SAND_BLUE_OF_GREEN = 0.93
+
+
+def yellowness(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """How much less blue each pixel (height, width) is than sand of its brightness, 0 to 255."""
+    _, green, blue = cv2.split(image)
+    sand = cv2.convertScaleAbs(green, alpha=SAND_BLUE_OF_GREEN)
+    return np.asarray(cv2.subtract(sand, blue), np.uint8)
+
+
+def rock_mask(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Pixels (height, width) of yellow samples: 255, else 0."""
+    _, green, blue = cv2.split(image)
+    limit = cv2.convertScaleAbs(green, alpha=ROCK_BLUE_OF_GREEN)
+    yellow = cv2.compare(blue, limit, cv2.CMP_LT)
+    return np.asarray(cv2.bitwise_and(yellow, cv2.inRange(green, *ROCK_GREEN)), np.uint8)
+
+
+def ground_columns(
+    image: NDArray[np.uint8], rocks: NDArray[np.uint8] | None, view: View
+) -> Columns:
+    """Follow each column from its lowest pixel up to the first obstacle.
+
+    Samples are no obstacles: the rover drives over them. The row where the ground ends is
+    interpolated between pixels.
+    """
+    height, width = image.shape[:2]
+    horizon = view.horizon(np.arange(width) + 0.5)
+    top = int(np.clip(np.floor(horizon.min()) - ABOVE_HORIZON, 0, height - 2))
+    red = np.asarray(cv2.medianBlur(np.ascontiguousarray(image[top:, :, 0]), 3), np.uint8)
+    if rocks is not None:
+        red[rocks[top:] > 0] = 255
+    row = np.arange(top, height)[:, None] + 0.5
+    ground = (red > GROUND_RED) & (row > horizon - ABOVE_HORIZON)
+    upwards = ~ground[::-1]
+    steps = np.where(upwards.any(axis=0), upwards.argmax(axis=0), len(red))
+    last = len(red) - steps  # first ground row from the top of the run, relative to `top`
+    edge = top + last + _blend(red, last)
+    reach = np.where(steps == 0, float(height), edge)
+    slope = reach < horizon + SLOPE_MARGIN
+    near = horizon + view.height * view.camera.focal / SLOPE_RANGE
+    reach = np.where(slope, np.maximum(reach, near), reach)
+    return Columns(horizon, np.maximum(reach, horizon + 0.5), ~slope)
+
+
+def _blend(red: NDArray[np.uint8], last: NDArray[np.intp]) -> NDArray[np.floating]:
+    """Where between the centres of the two pixels the level is crossed, from the edge [px]."""
+    column = np.arange(red.shape[1])
+    inside = red[np.clip(last, 0, len(red) - 1), column].astype(float)
+    outside = red[np.clip(last - 1, 0, len(red) - 1), column].astype(float)
+    share = (GROUND_RED - outside) / np.maximum(inside - outside, 1.0)
+    return np.clip(share, 0.0, 1.0) - 0.5

@@ -1,0 +1,35 @@
+"""Parameters of the perception node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rover_common.config import parameter
+
+
+@dataclass(frozen=True)
+class PerceptionConfig:
+    map_resolution: float = parameter(
+        1.0, "[m] cell of the published world map", minimum=0.25, maximum=5.0
+    )
+    evidence_resolution: float = parameter(
+        0.25, "[m] cell in which evidence is kept; divides the map's", minimum=0.05, maximum=1.0
+    )
+    max_range: float = parameter(
+        12.0,
+        "[m] ground beyond is not mapped: a pixel there is 5 m long",
+        minimum=2.0,
+        maximum=30.0,
+    )
+    image_lag: int = parameter(
+        1,
+        "frames by which the image is older than the pose; 0 for recordings",
+        minimum=0,
+        maximum=2,
+    )
+    map_period: float = parameter(
+        0.5, "[s] of frame time between two world maps", minimum=0.0, maximum=60.0
+    )
+    vision_period: float = parameter(
+        0.2, "[s] of frame time between two vision images", minimum=0.0, maximum=60.0
+    )

@@ -1,0 +1,145 @@
+"""The perception node: images and poses to a world map, polar arrays and rocks.
+
+Subscribes camera/image_raw and odom (joined by stamp). Publishes nav_polar, rock_polar and
+free_scan for every frame; rocks and worldmap (latched); vision_image (while subscribed);
+/diagnostics. Parameters: see PerceptionConfig.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rover_interfaces.msg import PolarArray, RockDetectionArray
+from sensor_msgs.msg import Image, LaserScan
+
+from rover_common import conversions, frames, qos, topics
+from rover_common.conversions import MessageError
+from rover_common.dataflow import Percept, Rock
+from rover_common.node_diagnostics import NodeDiagnostics
+from rover_common.node_parameters import declare_parameters
+from rover_common.node_runner import run_node
+from rover_common.stamp_join import StampJoin
+from rover_perception.config import PerceptionConfig
+from rover_perception.perception import FrameError, Perception
+from rover_perception.vision import vision_image
+
+LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
+PAUSE = 0.2  # [s] of wall time without a frame after which the map is brought up to date
+
+
+class PerceptionNode(Node):
+    """Joins image and odometry, calls the core once per frame, publishes what came of it."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__("perception_node", **kwargs)
+        cv2.setNumThreads(1)  # the images are small, and the other nodes need the cores
+        self._config = declare_parameters(self, PerceptionConfig)
+        self._core = Perception(self._config)
+        self._join = StampJoin((topics.IMAGE, topics.ODOMETRY))
+        self._stamp: int | None = None
+        self._map_stamp: int | None = None
+        self._vision_stamp: int | None = None
+        self._rocks: tuple[Rock, ...] = ()
+        self._frames_at_last_look = 0
+        self._make_endpoints()
+        self._pause_timer = self.create_timer(
+            PAUSE, self._on_pause_look, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+
+    def _make_endpoints(self) -> None:
+        publish = self.create_publisher
+        self._nav = publish(PolarArray, topics.NAV_POLAR, qos.FRAME)
+        self._rock_polar = publish(PolarArray, topics.ROCK_POLAR, qos.FRAME)
+        self._scan = publish(LaserScan, topics.FREE_SCAN, qos.FRAME)
+        self._rock_list = publish(RockDetectionArray, topics.ROCKS, qos.LATCHED)
+        self._map = publish(OccupancyGrid, topics.WORLDMAP, qos.LATCHED)
+        self._vision = publish(Image, topics.VISION_IMAGE, qos.VIEW)
+        image = self.create_subscription(Image, topics.IMAGE, self._on_image, qos.FRAME)
+        odometry = self.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
+        peers = {
+            "bridge": lambda: (
+                image.get_publisher_count() > 0 and odometry.get_publisher_count() > 0
+            ),
+            "decision": lambda: (
+                self._nav.get_subscription_count() > 0
+                and self._rock_polar.get_subscription_count() > 0
+                and self._scan.get_subscription_count() > 0
+            ),
+        }
+        self._diagnostics = NodeDiagnostics(self, peers)
+
+    def _on_image(self, message: Image) -> None:
+        self._on_part(topics.IMAGE, message)
+
+    def _on_odometry(self, message: Odometry) -> None:
+        self._on_part(topics.ODOMETRY, message)
+
+    def _on_part(self, slot: str, message: Any) -> None:
+        parts = self._join.add(slot, conversions.stamp_of(message.header.stamp), message)
+        self._diagnostics.counts["frames_incomplete"] = self._join.dropped
+        if parts is None:
+            return
+        try:
+            frame = conversions.camera_frame_of(parts[topics.IMAGE], parts[topics.ODOMETRY])
+            percept = self._core.process(frame)
+        except FrameError as error:
+            self._drop(error.counter, error)
+        except MessageError as error:
+            self._drop("frame_image_encoding", error)
+        else:
+            self._diagnostics.counts["frames"] += 1
+            self._publish(percept)
+
+    def _drop(self, counter: str, error: Exception) -> None:
+        self._diagnostics.counts[counter] += 1
+        self.get_logger().warning(f"frame dropped: {error}", throttle_duration_sec=LOG_PERIOD)
+
+    def _publish(self, percept: Percept) -> None:
+        """First what the decision waits for."""
+        stamp = percept.stamp
+        if percept.rocks != self._rocks:
+            self._rocks = percept.rocks
+            self._rock_list.publish(conversions.rocks_message_of(stamp, percept.rocks))
+        self._nav.publish(conversions.polar_message_of(stamp, percept.nav))
+        self._rock_polar.publish(conversions.polar_message_of(stamp, percept.rock))
+        self._scan.publish(conversions.scan_message_of(stamp, percept.scan))
+        self._stamp = stamp
+        if _due(self._map_stamp, stamp, self._config.map_period):
+            self._publish_map(stamp)
+        if self._vision.get_subscription_count() and _due(
+            self._vision_stamp, stamp, self._config.vision_period
+        ):
+            self._publish_vision(stamp)
+
+    def _publish_map(self, stamp: int) -> None:
+        self._map_stamp = stamp
+        self._map.publish(conversions.grid_message_of(stamp, self._core.world_map()))
+
+    def _publish_vision(self, stamp: int) -> None:
+        if self._core.last is None:
+            return
+        self._vision_stamp = stamp
+        picture = vision_image(self._core.last)
+        self._vision.publish(conversions.image_message_of(stamp, frames.CAMERA_OPTICAL, picture))
+
+    def _on_pause_look(self) -> None:
+        """When frames have stopped coming, publish the map with the last of them."""
+        frame_count = self._diagnostics.counts["frames"]
+        paused = frame_count == self._frames_at_last_look
+        self._frames_at_last_look = frame_count
+        if paused and self._stamp is not None and self._map_stamp != self._stamp:
+            self._publish_map(self._stamp)
+
+
+def _due(last: int | None, now: int, period: float) -> bool:
+    """Whether a period [s] of frame time has passed between two stamps [ns]."""
+    return last is None or abs(now - last) >= period * 1e9
+
+
+def main() -> None:
+    """Entry point of `ros2 run rover_perception perception_node`."""
+    run_node(PerceptionNode)

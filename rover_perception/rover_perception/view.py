@@ -1,0 +1,88 @@
+"""Where the camera looks in one frame: between pixels and flat ground, with pitch and roll.
+
+The level frame is base_link without pitch and roll: its origin on the rover's, x forward along the
+yaw, y left, z up. Pixel coordinates are continuous: pixel (0, 0) reaches from 0 to 1.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.camera import ORIGIN_HEIGHT, PinholeCamera
+from rover_common.geometry import Pose, tilt_matrix
+
+Array = NDArray[np.floating]
+
+# The suspension stops here; beyond, the body stands on two wheels, about this far from its origin.
+SUSPENSION_STOP = math.radians(1.4)  # [rad]
+WHEEL_LEVER = 0.36  # [m], the mean of 0.386 to the front, 0.336 to the rear, 0.396 to the sides
+LOWEST_CAMERA = 0.1  # [m] below this the rover has turned over
+
+
+@dataclass(frozen=True)
+class View:
+    """The projection of one frame; `usable` is False when no ground can be seen by it."""
+
+    camera: PinholeCamera
+    tilt: Array  # (3, 3) base_link to level frame
+    position: tuple[float, float, float]  # [m] of the optical centre, level frame, ground at z = 0
+    height_error: float  # relative error of the camera's height, from the tilt
+
+    @classmethod
+    def of(cls, camera: PinholeCamera, pose: Pose) -> View:
+        tilt = tilt_matrix(pose)
+        x, y, z = tilt @ (camera.forward, 0.0, camera.up)
+        lifted = sum(
+            math.sin(max(0.0, abs(angle) - SUSPENSION_STOP)) for angle in (pose.pitch, pose.roll)
+        )
+        height = z + ORIGIN_HEIGHT
+        error = WHEEL_LEVER * lifted / max(height, LOWEST_CAMERA)
+        return cls(camera, tilt, (float(x), float(y), float(height)), error)
+
+    @property
+    def height(self) -> float:
+        """[m] of the optical centre above the ground."""
+        return self.position[2]
+
+    @property
+    def usable(self) -> bool:
+        return self.height > LOWEST_CAMERA and self.tilt[2, 2] > 0.5
+
+    def horizon(self, u: Array) -> Array:
+        """Row of the horizon in each column u [px]."""
+        left = (self.camera.center_u - u) / self.camera.focal
+        up = -(self.tilt[2, 0] + self.tilt[2, 1] * left) / self.tilt[2, 2]
+        return self.camera.center_v - self.camera.focal * up
+
+    def ground(self, u: Array, v: Array, level: float = 0.0) -> tuple[Array, Array]:
+        """Points (x, y) [m] of the level frame, `level` [m] above the ground, under the pixels.
+
+        Rows at the horizon or above give inf.
+        """
+        left = (self.camera.center_u - u) / self.camera.focal
+        up = (self.camera.center_v - v) / self.camera.focal
+        t = self.tilt
+        down = -(t[2, 0] + t[2, 1] * left + t[2, 2] * up)
+        with np.errstate(divide="ignore"):
+            scale = np.where(down > 0, (self.height - level) / np.maximum(down, 1e-12), np.inf)
+        x = self.position[0] + scale * (t[0, 0] + t[0, 1] * left + t[0, 2] * up)
+        y = self.position[1] + scale * (t[1, 0] + t[1, 1] * left + t[1, 2] * up)
+        return x, y
+
+    def pixels(self, x: Array, y: Array) -> tuple[Array, Array, Array]:
+        """Pixels (u, v) of ground points [m] of the level frame, and their depth [m].
+
+        Points with a depth of less than a centimetre are behind the camera; their pixels mean
+        nothing.
+        """
+        dx, dy, dz = x - self.position[0], y - self.position[1], -self.height
+        t = self.tilt
+        depth = t[0, 0] * dx + t[1, 0] * dy + t[2, 0] * dz
+        left = t[0, 1] * dx + t[1, 1] * dy + t[2, 1] * dz
+        up = t[0, 2] * dx + t[1, 2] * dy + t[2, 2] * dz
+        scale = self.camera.focal / np.maximum(depth, 0.01)
+        return self.camera.center_u - left * scale, self.camera.center_v - up * scale, depth
