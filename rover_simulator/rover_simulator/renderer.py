@@ -1,0 +1,140 @@
+"""What the rover's camera sees of a world: rays against its terrain and samples.
+
+Colours are the measured means of the simulator's surfaces.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from embreex import rtcore_scene
+from embreex.mesh_construction import TriangleMesh
+from numpy.typing import NDArray
+
+from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
+from rover_common.geometry import Pose, rotation_matrix
+from rover_simulator.profile import sand_at
+from rover_simulator.terrain import Terrain
+from rover_simulator.world import World
+
+SAND_LIT, SAND_SHADOW = np.array([238, 220, 205.0]), np.array([208, 189, 175.0])
+WALL_LIT, WALL_SHADOW = np.array([41, 28, 24.0]), np.array([19, 12, 9.0])
+SAMPLE_LIT, SAMPLE_SHADOW = np.array([190, 158, 20.0]), np.array([120, 100, 12.0])
+SKY_LOW, SKY_HIGH = np.array([157, 148, 143.0]), np.array([112, 104, 99.0])
+SKY_LOW_AT, SKY_HIGH_AT = math.radians(13), math.radians(36)  # elevations of these colours
+FOG = np.array([139, 125, 114.0])
+FOG_DENSITY = 0.005  # [1/m], exponential squared
+SUN = np.array([0.321, -0.557, 0.766])  # east, north, up: towards the sun
+TEXTURE = 6.0  # grey levels of the surfaces' texture
+JPEG_QUALITY = 75
+
+SAMPLE_RADIUS, SAMPLE_HEIGHT = 0.08, 0.13  # [m]
+
+
+@dataclass(frozen=True)
+class Rendering:
+    image: NDArray[np.uint8]  # (160, 320, 3) RGB
+    sample_pixels: NDArray[np.intp]  # (n,) pixels in which each of the world's samples shows
+
+
+class Renderer:
+    """Renders one world; geometry is built once."""
+
+    def __init__(self, world: World, terrain: Terrain) -> None:
+        self._terrain = terrain
+        self._scene = rtcore_scene.EmbreeScene()
+        vertices, triangles = terrain.triangles()
+        self._ground = TriangleMesh(self._scene, vertices, triangles)
+        self._samples = [
+            TriangleMesh(self._scene, *_sample_mesh(float(x), float(y))) for x, y in world.samples
+        ]
+        self._rays = ROVER_CAMERA.rays().reshape(-1, 3)
+        noise = np.random.default_rng(7).normal(size=(512, 512))
+        texture = np.asarray(cv2.GaussianBlur(noise, (0, 0), 1.2))
+        self._texture = TEXTURE / texture.std() * texture
+
+    def render(self, pose: Pose) -> Rendering:
+        """What the camera sees at a pose."""
+        rotation = rotation_matrix(pose)
+        origin = np.array([pose.x, pose.y, ORIGIN_HEIGHT])
+        origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
+        rays = (self._rays @ rotation.T).astype(np.float32)
+        rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+        hit = self._trace(np.broadcast_to(origin, rays.shape), rays)
+        colors = _sky(rays)
+        seen = hit["geomID"] >= 0
+        points = origin + rays[seen] * hit["tfar"][seen][:, None]
+        colors[seen] = self._surface(points, hit["geomID"][seen] > 0)
+        distance = hit["tfar"][seen]
+        fog = (1.0 - np.exp(-((FOG_DENSITY * distance) ** 2)))[:, None]
+        colors[seen] = (1 - fog) * colors[seen] + fog * FOG
+        image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
+        samples = np.bincount(hit["geomID"][seen], minlength=1 + len(self._samples))[1:]
+        return Rendering(np.clip(image, 0, 255).astype(np.uint8), samples)
+
+    def _surface(self, points: NDArray, is_sample: NDArray[np.bool_]) -> NDArray:
+        """Colours (n, 3) of points (n, 3) [m] on the ground or on samples."""
+        lit = self._lit(points)[:, None]
+        sand = sand_at(self._terrain.outside_at(points[:, 0], points[:, 1]))[:, None]
+        lit_color = sand * SAND_LIT + (1 - sand) * WALL_LIT
+        shadow_color = sand * SAND_SHADOW + (1 - sand) * WALL_SHADOW
+        colors = np.where(lit, lit_color, shadow_color)
+        at = np.floor(points * 20).astype(int)
+        grain = self._texture[(at[:, 1] + at[:, 2]) % 512, at[:, 0] % 512]
+        colors += grain[:, None]
+        sample_color = np.where(lit, SAMPLE_LIT, SAMPLE_SHADOW)
+        return np.where(is_sample[:, None], sample_color, colors)
+
+    def _lit(self, points: NDArray) -> NDArray[np.bool_]:
+        """Whether the sun reaches the points."""
+        start = points + 0.05 * SUN
+        hit = self._trace(start, np.broadcast_to(SUN, start.shape))
+        return np.asarray(hit["geomID"] < 0)
+
+    def _trace(self, origins: NDArray, directions: NDArray) -> dict[str, NDArray]:
+        result: dict[str, NDArray] = self._scene.run(
+            np.ascontiguousarray(origins, np.float32),
+            np.ascontiguousarray(directions, np.float32),
+            output=1,
+        )
+        return result
+
+
+def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
+    """A JPEG file as the simulator writes it: quality 75, colour at half resolution."""
+    parameters = [
+        cv2.IMWRITE_JPEG_QUALITY,
+        JPEG_QUALITY,
+        cv2.IMWRITE_JPEG_SAMPLING_FACTOR,
+        cv2.IMWRITE_JPEG_SAMPLING_FACTOR_420,
+    ]
+    _, data = cv2.imencode(".jpg", cv2.cvtColor(image, cv2.COLOR_RGB2BGR), parameters)
+    return data.tobytes()
+
+
+def _sky(rays: NDArray[np.float32]) -> NDArray:
+    """Colours (n, 3) of the sky along unit rays (n, 3)."""
+    elevation = np.arcsin(np.clip(rays[:, 2], -1, 1))
+    share = np.clip((elevation - SKY_LOW_AT) / (SKY_HIGH_AT - SKY_LOW_AT), 0, 1)[:, None]
+    return (1 - share) * SKY_LOW + share * SKY_HIGH
+
+
+def _sample_mesh(x: float, y: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """A rock of eight sides that stands on the ground."""
+    angle = np.arange(8) * math.pi / 4
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * SAMPLE_RADIUS
+    low = np.column_stack([ring + np.array([x, y]), np.zeros(8)])
+    high = np.column_stack([0.75 * ring + np.array([x, y]), np.full(8, 0.7 * SAMPLE_HEIGHT)])
+    top = np.array([[x, y, SAMPLE_HEIGHT]])
+    i, j = np.arange(8), (np.arange(8) + 1) % 8
+    sides = np.concatenate(
+        [
+            np.stack([i, j, i + 8], axis=1),
+            np.stack([j, j + 8, i + 8], axis=1),
+            np.stack([i + 8, j + 8, np.full(8, 16)], axis=1),
+        ]
+    )
+    return np.concatenate([low, high, top]).astype(np.float32), sides.astype(np.int32)

@@ -1,0 +1,67 @@
+"""The ground of a world as a height field, from its map and the measured wall profile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from rover_simulator.profile import MAP_MARGIN, height_at
+
+SPACING = 0.390625  # [m] between heights, 513 of them over 200 m, as in the original
+COUNT = 513
+FINE = 8  # distances are measured on a grid of 1/8 m
+ROUGHNESS = 0.35  # of the height: the spread of the measured profile
+
+
+@dataclass(frozen=True)
+class Terrain:
+    heights: NDArray[np.float32]  # (513, 513) [m], [y, x]
+    outside: NDArray[np.float32]  # (1600, 1600) [m] from the flat floor's edge, negative inside
+
+    @classmethod
+    def of(cls, navigable: NDArray[np.bool_], seed: int = 0) -> Terrain:
+        """Build it; the seed decides how rough the walls are."""
+        floor = _floor(navigable)
+        inside = ndimage.distance_transform_edt(floor) / FINE
+        outward = ndimage.distance_transform_edt(~floor) / FINE
+        outside = np.where(floor, -inside, outward).astype(np.float32)
+        at = np.arange(COUNT) * SPACING
+        distance = _sample(outside, *np.meshgrid(at, at))
+        noise = np.random.default_rng(seed).normal(size=(COUNT, COUNT))
+        rough = sum(
+            ndimage.gaussian_filter(noise, sigma, mode="wrap") * sigma for sigma in (2.0, 6.0, 20.0)
+        )
+        rough = 1.0 + ROUGHNESS * rough / rough.std()
+        heights = height_at(distance) * np.clip(rough, 0.3, 2.0)
+        return cls(heights.astype(np.float32), outside)
+
+    def outside_at(self, x: NDArray, y: NDArray) -> NDArray[np.float32]:
+        """Distance [m] outside of the flat floor at points [m]."""
+        return _sample(self.outside, x, y)
+
+    def triangles(self) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """Vertices (n, 3) [m] and triangles (m, 3) of the height field."""
+        at = (np.arange(COUNT) * SPACING).astype(np.float32)
+        x, y = np.meshgrid(at, at)
+        vertices = np.stack([x, y, self.heights], axis=-1).reshape(-1, 3)
+        corner = (np.arange(COUNT - 1)[:, None] * COUNT + np.arange(COUNT - 1)).ravel()
+        lower = np.stack([corner, corner + 1, corner + COUNT], axis=1)
+        upper = np.stack([corner + 1, corner + COUNT + 1, corner + COUNT], axis=1)
+        return vertices, np.concatenate([lower, upper]).astype(np.int32)
+
+
+def _floor(navigable: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The flat floor on the fine grid: the cells and the margin around them, with rounded edges."""
+    cells = np.kron(navigable, np.ones((FINE, FINE), bool))
+    beyond = ndimage.distance_transform_edt(~cells) / FINE
+    grown = (beyond < MAP_MARGIN + 0.3).astype(np.float32)
+    return ndimage.gaussian_filter(grown, 0.4 * FINE) > 0.5 + 0.2
+
+
+def _sample(grid: NDArray[np.float32], x: NDArray, y: NDArray) -> NDArray[np.float32]:
+    """Bilinear value of the fine grid, whose cell centres lie at (i + 0.5) / FINE [m]."""
+    at = [np.asarray(y) * FINE - 0.5, np.asarray(x) * FINE - 0.5]
+    return ndimage.map_coordinates(grid, at, order=1, mode="nearest")
