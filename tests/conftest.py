@@ -1,8 +1,9 @@
-"""What all tests share: an isolated ROS context per test, and the recordings when they are there."""
+"""What all tests share: an isolated ROS context per test, and the recordings."""
 
 from __future__ import annotations
 
 import os
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -65,6 +66,17 @@ class Ros:
             node.destroy_node()
         self.executor.shutdown()
         self.context.try_shutdown()
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left() -> Iterator[None]:
+    """Every test ends the threads that it started."""
+    before = set(threading.enumerate())
+    yield
+    end = time.monotonic() + WAIT
+    while left := [t for t in threading.enumerate() if t not in before and t.is_alive()]:
+        assert time.monotonic() < end, f"threads left behind: {left}"
+        left[0].join(0.1)
 
 
 @pytest.fixture

@@ -1,0 +1,40 @@
+"""Telemetry for tests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+
+from rover_common.geometry import Pose
+from rover_simulator.telemetry_format import format_telemetry
+
+START = Pose(99.67, 85.589, 0.9918)
+
+
+def jpeg(level: int = 128, width: int = 320, height: int = 160) -> bytes:
+    """A grey JPEG file with some texture, so that it is about as large as a real one."""
+    noise = np.random.default_rng(0).normal(level, 12, (height, width, 3))
+    data = cv2.imencode(".jpg", np.clip(noise, 0, 255).astype(np.uint8))[1]
+    return bytes(data.tobytes())
+
+
+IMAGE = jpeg()
+
+
+def telemetry(**changes: Any) -> dict[str, str]:
+    """A telemetry object of a standing rover at the start, with these values changed."""
+    values: dict[str, Any] = {
+        "pose": START,
+        "speed": 0.0,
+        "throttle": 0.0,
+        "brake": 0.0,
+        "steering_angle": 0.0,
+        "near_sample": False,
+        "picking_up": False,
+        "sample_count": 2,
+        "samples": ((109.78, 89.84), (62.63, 96.25)),
+        "image": IMAGE,
+    }
+    return format_telemetry(**(values | changes))
