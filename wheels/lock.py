@@ -1,7 +1,7 @@
 """Print the lock file of the environment that runs this: every real distribution, pinned.
 
-The ROS wheels also leave old-style metadata behind, of names that no package index has; only what has
-a RECORD was installed from a wheel.
+The ROS wheels also leave old-style metadata behind, of names that no package index has; only what
+has a RECORD was installed from a wheel.
 """
 
 from importlib.metadata import distributions

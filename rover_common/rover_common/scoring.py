@@ -69,7 +69,7 @@ def score_rocks(found: NDArray[np.float64], true: NDArray[np.float64]) -> RockSc
     if len(found) == 0 or len(true) == 0:
         return RockScore(0, len(true), len(found))
     distance = cdist(found, true)
-    # A pair out of reach must never displace one within: the cost saturates at the radius.
-    pairs = linear_sum_assignment(np.minimum(distance, ROCK_RADIUS * 1.001))
+    # As many pairs within reach as there can be: one out of reach costs more than all the others.
+    pairs = linear_sum_assignment(np.where(distance <= ROCK_RADIUS, distance, 1e6))
     located = int(np.count_nonzero(distance[pairs] <= ROCK_RADIUS))
     return RockScore(located, len(true) - located, len(found) - located)

@@ -1,0 +1,144 @@
+"""The house rules that a machine can check."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from dataclasses import MISSING, fields
+from pathlib import Path
+
+import pytest
+import yaml
+from rclpy.qos import QoSCompatibility, qos_check_compatible
+
+from rover_bridge.config import BridgeConfig
+from rover_common import qos
+from rover_decision.config import DecisionConfig
+from rover_perception.config import PerceptionConfig
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGES = sorted(path.parent.name for path in ROOT.glob("rover_*/package.xml"))
+MODULES = sorted(ROOT.glob("rover_*/rover_*/*.py"))
+CONFIGS = {
+    "bridge_node": BridgeConfig,
+    "perception_node": PerceptionConfig,
+    "decision_node": DecisionConfig,
+}
+MESSAGE_PACKAGES = {
+    "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces",
+    "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs", "std_srvs", "tf2_msgs",
+    "visualization_msgs",
+}  # fmt: skip
+# The rosdep key of each library that is imported under another name.
+ROSDEP_KEYS = {
+    "numpy": "python3-numpy",
+    "cv2": "python3-opencv",
+    "scipy": "python3-scipy",
+    "skimage": "python3-skimage",
+    "matplotlib": "python3-matplotlib",
+    "yaml": "python3-yaml",
+    "tqdm": "python3-tqdm",
+    "socketio": "python3-socketio",
+    "engineio": "python3-engineio",
+    "eventlet": "python3-eventlet",
+    "websocket": "python3-websocket",
+    "embreex": "python3-embreex-pip",
+    "statemachine": "python3-python-statemachine-pip",
+}
+WITH_ROSDEP_KEY = set(ROSDEP_KEYS) | MESSAGE_PACKAGES | {"rclpy", "ament_index_python"}
+
+
+def imports_of(path: Path) -> set[str]:
+    """Top-level names of all modules that a file imports."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names.add(node.module.split(".")[0])
+    return names
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_only_nodes_and_conversions_know_ros(path):
+    if path.stem in ("node", "conversions", "qos") or path.stem.startswith("node_"):
+        return
+    assert not imports_of(path) & (MESSAGE_PACKAGES | {"rclpy"})
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_files_and_functions_are_short(path):
+    assert len(path.read_text().splitlines()) <= 400
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.FunctionDef):
+            assert node.end_lineno - node.lineno <= 60, f"{node.name} is too long"
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_package_description(package):
+    root = ElementTree.parse(ROOT / package / "package.xml").getroot()
+    assert root.get("format") == "3"
+    assert root.findtext("name") == package
+    assert root.findtext("license") == "Apache-2.0"
+    declared = {element.text for element in root if element.tag.endswith("depend")}
+    imported = {
+        name for path in (ROOT / package / package).glob("*.py") for name in imports_of(path)
+    }
+    needed = {name for name in imported if name in WITH_ROSDEP_KEY or name in PACKAGES}
+    keys = {ROSDEP_KEYS.get(name, name) for name in needed - {package}}
+    assert keys <= declared, f"missing in {package}/package.xml: {sorted(keys - declared)}"
+
+
+@pytest.mark.parametrize("node", CONFIGS)
+def test_the_yaml_lists_every_parameter_with_its_default(node):
+    path = ROOT / "rover_bringup" / "config" / "rover.yaml"
+    shipped = yaml.safe_load(path.read_text())[f"/**/{node}"]["ros__parameters"]
+    declared = {field.name: field.default for field in fields(CONFIGS[node])}
+    assert MISSING not in declared.values()
+    assert shipped == declared
+    lines = path.read_text().splitlines()
+    for name in declared:
+        (index,) = [
+            i for i, line in enumerate(lines)
+            if line.strip().startswith(f"{name}:") and f"/**/{node}:" in above(lines, i)
+        ]  # fmt: skip
+        assert lines[index - 1].strip().startswith("# "), f"{name} has no comment"
+
+
+def above(lines: list[str], index: int) -> str:
+    """The nearest line above that begins a node's section."""
+    return next(line for line in reversed(lines[:index]) if line.startswith("/**/"))
+
+
+@pytest.mark.parametrize("profile", [qos.FRAME, qos.LATCHED, qos.VIEW, qos.TF, qos.CLOCK])
+def test_each_profile_fits_itself(profile):
+    compatibility, reason = qos_check_compatible(profile, profile)
+    assert compatibility is not QoSCompatibility.ERROR, reason
+
+
+@pytest.mark.parametrize("arguments", [["check"], ["format", "--check"]], ids=["lint", "format"])
+def test_ruff(arguments):
+    done = subprocess.run(
+        [sys.executable, "-m", "ruff", *arguments, "."], cwd=ROOT, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_mypy():
+    done = subprocess.run([sys.executable, "-m", "mypy"], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_nothing_names_this_machine():
+    tracked = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.split()
+    for name in tracked:
+        if name.endswith((".py", ".md", ".yaml", ".xml", ".txt", ".sh", ".toml")):
+            text = (ROOT / name).read_text()
+            for prefix in ("/home/", "/root/", "/work/"):
+                if name == "tests/workspace/test_structure.py" or "test_recording" in name:
+                    continue
+                assert prefix not in text, f"{name} names {prefix}"
