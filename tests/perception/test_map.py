@@ -1,0 +1,202 @@
+"""The map that frames add up to."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scene import SKY, WALL, draw
+
+from rover_common.dataflow import CameraFrame
+from rover_common.geometry import Pose
+from rover_common.scoring import navigable_cells
+from rover_perception.config import PerceptionConfig
+from rover_perception.perception import FrameError, Perception
+
+LIVE = PerceptionConfig(image_lag=0)
+CORRIDOR = (95.0, 105.0)
+
+
+def corridor(x, y):
+    """Floor between two walls along x."""
+    return (y > CORRIDOR[0]) & (y < CORRIDOR[1])
+
+
+def frames(poses: list[Pose], is_floor) -> list[CameraFrame]:
+    return [
+        CameraFrame(1 + index * 40_000_000, pose, draw(pose, is_floor))
+        for index, pose in enumerate(poses)
+    ]
+
+
+def mapped(frames: list[CameraFrame], config: PerceptionConfig = LIVE) -> np.ndarray:
+    core = Perception(config)
+    for frame in frames:
+        core.process(frame)
+    return core.world_map().cells
+
+
+def drive(pitch: float = 0.0, roll: float = 0.0, count: int = 40) -> list[Pose]:
+    turn = math.radians(35)
+    return [Pose(90 + 0.5 * i, 100.0, turn * math.sin(0.4 * i), pitch, roll) for i in range(count)]
+
+
+@given(pitch=st.floats(-0.02, 0.02), roll=st.floats(-0.02, 0.02))
+@settings(max_examples=10, deadline=None)
+def test_a_corridor_is_rebuilt_at_any_tilt_of_driving(pitch, roll):
+    cells = mapped(frames(drive(pitch, roll), corridor))
+    navigable = navigable_cells(cells)
+    inner = np.zeros_like(navigable)
+    inner[97:103, 94:105] = True
+    assert navigable[inner].mean() > 0.97
+    outside = navigable.copy()
+    outside[95:105] = False
+    assert outside.sum() == 0
+
+
+def test_a_checkerboard_of_pits_is_rebuilt():
+    def board(x, y):
+        return ((np.floor(x / 4) + np.floor(y / 4)) % 2 == 0) | (np.abs(y - 100) < 2)
+
+    cells = mapped(frames(drive(), board))
+    rows, cols = np.nonzero(navigable_cells(cells))
+    assert len(rows) > 100
+    assert board(cols + 0.5, rows + 0.5).mean() > 0.97
+
+
+@given(st.permutations(range(12)))
+@settings(max_examples=10, deadline=None)
+def test_the_order_of_frames_does_not_matter(order):
+    seen = frames(drive(count=12), corridor)
+    shuffled = [CameraFrame(1 + i, seen[k].pose, seen[k].image) for i, k in enumerate(order)]
+    assert (mapped(seen) == mapped(shuffled)).all()
+
+
+def test_a_mirrored_world_gives_the_mirrored_map():
+    poses = drive(count=20)
+    mirrored = [Pose(p.x, 200 - p.y, -p.yaw, p.pitch, -p.roll) for p in poses]
+
+    def bay(x, y):
+        return corridor(x, y) | ((x > 100) & (y > 100) & (y < 110))
+
+    cells = mapped(frames(poses, bay))
+    flipped = mapped(frames(mirrored, lambda x, y: bay(x, 200 - y)))
+    difference = navigable_cells(cells) != navigable_cells(flipped[::-1])
+    assert difference.sum() <= 0.02 * navigable_cells(cells).sum()
+
+
+def test_what_lies_behind_an_obstacle_is_unknown():
+    def wall_across(x, y):
+        return corridor(x, y) & ~((x > 96) & (x < 97))
+
+    cells = mapped(frames([Pose(90, 100, 0)] * 10, wall_across))
+    assert (cells[98:102, 92:94] >= 0).all()
+    assert (cells[98:102, 99:] == -1).all()
+
+
+def test_evidence_can_be_taken_back():
+    core = Perception(LIVE)
+    for index in range(5):
+        core.process(CameraFrame(1 + index, Pose(90, 100, 0), draw(Pose(90, 100, 0), corridor)))
+    before = navigable_cells(core.world_map().cells)
+    assert before[99:101, 93].all()
+
+    def blocked(x, y):
+        return corridor(x, y) & (x < 93)
+
+    for index in range(20):
+        pose = Pose(91, 100, 0)
+        core.process(CameraFrame(10 + index, pose, draw(pose, blocked)))
+    assert not navigable_cells(core.world_map().cells)[99:101, 93].any()
+
+
+def test_a_long_stay_spoils_nothing():
+    seen = frames(drive(), corridor)
+    once, often = navigable_cells(mapped(seen)), navigable_cells(mapped(seen * 10))
+    assert (often | ~once).all()
+    often[95:105] = False
+    assert not often.any()
+
+
+def test_nothing_is_written_outside_of_the_world():
+    pose = Pose(199.0, 199.0, math.radians(45))
+    image = draw(pose, lambda x, y: np.ones_like(x, bool))
+    cells = mapped([CameraFrame(1, pose, image)] * 3)
+    assert not (cells[:190, :190] >= 0).any()
+
+
+def test_a_pose_outside_of_the_world_does_no_harm():
+    pose = Pose(-50.0, 300.0, 0.0)
+    cells = mapped([CameraFrame(1, pose, draw(pose, corridor))])
+    assert (cells == -1).all()
+
+
+@pytest.mark.parametrize("color", [(0, 0, 0), WALL, SKY])
+def test_a_picture_without_ground_maps_nothing_free(color):
+    image = np.full((160, 320, 3), color, np.uint8)
+    cells = mapped([CameraFrame(1, Pose(90, 100, 0), image)] * 5)
+    assert not navigable_cells(cells).any()
+
+
+def test_a_white_picture_is_trusted_near_the_rover_only():
+    """Ground up to above the horizon is a slope, or a fault."""
+    image = np.full((160, 320, 3), 255, np.uint8)
+    cells = mapped([CameraFrame(1, Pose(90, 100, 0), image)] * 5)
+    _, cols = np.nonzero(navigable_cells(cells))
+    assert cols.max() <= 95
+
+
+@pytest.mark.parametrize(
+    ("pose", "shape"),
+    [
+        (Pose(math.nan, 0, 0), (160, 320, 3)),
+        (Pose(0, 0, math.inf), (160, 320, 3)),
+        (Pose(0, 0, 0), (100, 320, 3)),
+        (Pose(0, 0, 0), (160, 320)),
+    ],
+)
+def test_a_bad_frame_is_refused_and_the_map_stays(pose, shape):
+    core = Perception(LIVE)
+    for frame in frames(drive(count=5), corridor):
+        core.process(frame)
+    before = core.world_map().cells
+    with pytest.raises(FrameError):
+        core.process(CameraFrame(999_000_000, pose, np.zeros(shape, np.uint8)))
+    assert (core.world_map().cells == before).all()
+
+
+def test_time_that_falls_back_starts_a_new_map():
+    core = Perception(LIVE)
+    late = CameraFrame(100_000_000_000, Pose(90, 100, 0), draw(Pose(90, 100, 0), corridor))
+    for _ in range(3):
+        core.process(late)
+    assert (core.world_map().cells >= 0).any()
+    core.process(CameraFrame(1, Pose(20, 20, 0), np.zeros((160, 320, 3), np.uint8)))
+    assert not navigable_cells(core.world_map().cells)[90:110].any()
+
+
+def test_the_image_of_a_live_simulator_belongs_to_the_pose_before():
+    poses = drive(count=30)
+    exact = mapped(frames(poses, corridor))
+    lagging = [
+        CameraFrame(1 + i, pose, draw(poses[max(0, i - 1)], corridor))
+        for i, pose in enumerate(poses)
+    ]
+
+    def wrong(lag: int) -> int:
+        cells = mapped(lagging, PerceptionConfig(image_lag=lag))
+        return int((navigable_cells(exact) != navigable_cells(cells)).sum())
+
+    assert wrong(1) < wrong(0) / 2
+
+
+def test_the_scan_tells_the_distance_to_a_wall():
+    pose = Pose(90, 100, 0)
+    core = Perception(LIVE)
+    percept = core.process(CameraFrame(1, pose, draw(pose, lambda x, y: x < 94)))
+    scan = percept.scan
+    middle = round(-scan.angle_min / scan.angle_increment)
+    assert scan.ranges[middle] == pytest.approx(4.0, abs=0.3)
+    assert len(percept.nav.ranges) == len(percept.nav.bearings) > 50
+    assert (percept.nav.ranges <= LIVE.max_range + 0.5).all()

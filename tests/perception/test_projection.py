@@ -1,0 +1,59 @@
+"""The projection, its inverse, and its agreement with rays cast pixel by pixel."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scene import ground_points
+
+from rover_common.camera import ROVER_CAMERA
+from rover_common.geometry import Pose
+from rover_perception.view import View
+
+TILT = st.floats(-0.25, 0.25)
+
+
+@given(pitch=TILT, roll=TILT, x=st.floats(1.0, 20.0), side=st.floats(-1.2, 1.2))
+def test_projection_and_inverse_agree(pitch, roll, x, side):
+    view = View.of(ROVER_CAMERA, Pose(0, 0, 0, pitch, roll))
+    y = side * x
+    u, v, depth = view.pixels(np.array([x]), np.array([y]))
+    if depth[0] < 0.2 or v[0] <= view.horizon(u)[0] + 0.05:
+        return
+    back_x, back_y = view.ground(u, v)
+    assert back_x[0] == pytest.approx(x, rel=1e-6)
+    assert back_y[0] == pytest.approx(y, rel=1e-6, abs=1e-6)
+
+
+@given(pitch=TILT, roll=TILT)
+def test_it_agrees_with_rays(pitch, roll):
+    pose = Pose(0, 0, 0, pitch, roll)
+    x, y, down = ground_points(pose)
+    view = View.of(ROVER_CAMERA, pose)
+    u, v = np.meshgrid(np.arange(320) + 0.5, np.arange(160) + 0.5)
+    px, py = view.ground(u, v)
+    near = down & (np.hypot(x, y) < 50)
+    assert np.allclose(px[near], x[near], rtol=1e-4, atol=1e-4)
+    assert np.allclose(py[near], y[near], rtol=1e-4, atol=1e-4)
+    horizon = view.horizon(np.arange(320) + 0.5)
+    assert ((v > horizon + 0.01) <= down).all()
+
+
+def test_the_level_camera_sees_what_was_measured():
+    view = View.of(ROVER_CAMERA, Pose(0, 0, 0))
+    assert view.height == pytest.approx(0.2276, abs=1e-4)
+    for row, distance in ((159, 0.756), (140, 0.859), (100, 1.697), (90, 2.905)):
+        x, _ = view.ground(np.array([160.0]), np.array([row + 0.5]))
+        assert x[0] == pytest.approx(distance, abs=2e-3)
+
+
+def test_nose_down_lifts_the_horizon_two_pixels_a_degree():
+    level = View.of(ROVER_CAMERA, Pose(0, 0, 0)).horizon(np.array([160.0]))
+    down = View.of(ROVER_CAMERA, Pose(0, 0, 0, math.radians(1))).horizon(np.array([160.0]))
+    assert level[0] - down[0] == pytest.approx(2.0, abs=0.01)
+
+
+def test_a_rover_on_its_back_sees_no_ground():
+    assert not View.of(ROVER_CAMERA, Pose(0, 0, 0, roll=math.pi)).usable
