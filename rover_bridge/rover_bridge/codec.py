@@ -84,6 +84,12 @@ def decode_image(text: object) -> NDArray[np.uint8]:
     return cv2.cvtColor(image, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)
 
 
+def uses_decimal_comma(wire: object) -> bool:
+    """Whether the machine that wrote this telemetry has a comma for its decimal mark."""
+    speed = wire.get("speed") if isinstance(wire, Mapping) else None
+    return isinstance(speed, str) and "," in speed and "." not in speed
+
+
 def encode_drive(command: Command, decimal_comma: bool = False) -> dict[str, str]:
     """The object of a `data` event; a value that is not finite becomes the safe brake."""
     values = (command.steering_angle, command.throttle, command.brake)

@@ -7,6 +7,7 @@ Subscribes cmd_drive. Parameters: see BridgeConfig.
 
 from __future__ import annotations
 
+import sys
 import time
 from collections import deque
 from typing import Any
@@ -21,12 +22,17 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from rover_bridge import conversions
-from rover_bridge.codec import decode_telemetry, encode_drive
+from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comma
 from rover_bridge.config import BridgeConfig
 from rover_bridge.errors import TelemetryError
 from rover_bridge.exchange import Answer, Exchange, Ticket
-from rover_bridge.numbers import uses_decimal_comma
-from rover_bridge.server import Connected, ServerEvent, SocketServer, TelemetryReceived
+from rover_bridge.server import (
+    Connected,
+    ProtocolTrouble,
+    ServerEvent,
+    SocketServer,
+    TelemetryReceived,
+)
 from rover_common import frames, qos, topics
 from rover_common.conversions import NANOSECONDS, command_of, image_message_of, odometry_of
 from rover_common.dataflow import SAFE_COMMAND, Telemetry
@@ -45,7 +51,7 @@ class BridgeNode(Node):
         super().__init__("bridge_node", **kwargs)
         config = declare_parameters(self, BridgeConfig)
         self._exchange = Exchange(config.answer_deadline)
-        self._decimal_comma = False
+        self._comma_clients: set[str] = set()
         self._make_endpoints()
         self._inbox: deque[ServerEvent] = deque()
         self._arrival = self.create_guard_condition(self._on_arrivals)
@@ -102,32 +108,41 @@ class BridgeNode(Node):
             elif isinstance(event, Connected):
                 self._diagnostics.counts["connections"] += 1
                 self.get_logger().info(f"client {event.client} connected")
+            elif isinstance(event, ProtocolTrouble):
+                self._diagnostics.counts["protocol_troubles"] += 1
+                self._warn(f"garbage from a client: {event.text}")
             else:
                 self.get_logger().info(f"client {event.client} disconnected")
                 self._exchange.leave(event.client)
+                self._comma_clients.discard(event.client)
                 self._publish_driver()
 
     def _on_telemetry(self, event: TelemetryReceived) -> None:
-        driver = self._exchange.driver
-        if not self._exchange.admit(event.client):
+        if uses_decimal_comma(event.wire):
+            self._comma_clients.add(event.client)
+        client, driver = event.client, self._exchange.driver
+        if not self._exchange.admit(client, time.monotonic()):
             self._warn("another client drives: this one is answered with the brake")
-            self._send(Answer(event.client, SAFE_COMMAND, "second_client"))
+            self._send(Answer(client, SAFE_COMMAND, "second_client"))
             return
-        if driver is None:
+        if self._exchange.driver != driver:
+            self.get_logger().info(f"client {client} drives")
             self._publish_driver()
+        if self._exchange.full:
+            self._warn("too many telemetries at once: answering with the brake")
+            self._send(Answer(client, SAFE_COMMAND, "overloaded"))
+            return
         try:
             telemetry = decode_telemetry(event.wire)
         except TelemetryError as error:
             self._warn(f"telemetry dropped: {error}")
-            self._send(Answer(event.client, SAFE_COMMAND, error.counter))
+            self._send(Answer(client, SAFE_COMMAND, error.counter))
             return
-        speed = event.wire["speed"]  # type: ignore[index]
-        self._decimal_comma = uses_decimal_comma(speed)
         self._diagnostics.counts["telemetries"] += 1
         stamp = self._exchange.next_stamp(self._stamp_of(telemetry))
         self._exchange.open(
             Ticket(
-                client=event.client,
+                client=client,
                 stamp=stamp,
                 arrived=time.monotonic(),
                 speed=telemetry.speed,
@@ -167,7 +182,7 @@ class BridgeNode(Node):
         if answer.command.pickup:
             self._server.send(answer.client, "pickup", {})
         else:
-            drive = encode_drive(answer.command, self._decimal_comma)
+            drive = encode_drive(answer.command, answer.client in self._comma_clients)
             self._server.send(answer.client, "data", drive)
 
     def _publish_driver(self) -> None:
@@ -188,4 +203,7 @@ class BridgeNode(Node):
 
 def main() -> None:
     """Entry point of `ros2 run rover_bridge bridge_node`."""
-    run_node(BridgeNode)
+    try:
+        run_node(BridgeNode)
+    except OSError as error:  # the port is in use, or the address is not this machine's
+        sys.exit(f"bridge_node: {error}")

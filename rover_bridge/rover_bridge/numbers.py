@@ -42,8 +42,3 @@ def parse_numbers(text: object, count: int) -> list[float]:
     if len(parts) != count:
         raise NumberError(f"{text!r:.40} has {len(parts)} numbers, expected {count}")
     return [parse_number(part) for part in parts]
-
-
-def uses_decimal_comma(text: object) -> bool:
-    """Whether the machine that wrote this fixed-point number has a comma for its decimal mark."""
-    return isinstance(text, str) and "," in text and "." not in text

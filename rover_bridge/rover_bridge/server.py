@@ -44,7 +44,26 @@ class TelemetryReceived:
     wire: object  # as it came: usually the telemetry object
 
 
-ServerEvent = Connected | Disconnected | TelemetryReceived
+@dataclass(frozen=True)
+class ProtocolTrouble:
+    """A client sent what no generation of the protocol knows; its connection has ended."""
+
+    text: str
+
+
+ServerEvent = Connected | Disconnected | TelemetryReceived | ProtocolTrouble
+
+
+class _TroubleLog(logging.Handler):
+    """What the libraries log as errors, with tracebacks, becomes an event."""
+
+    def __init__(self, on_event: Callable[[ServerEvent], None]) -> None:
+        super().__init__(logging.ERROR)
+        self._on_event = on_event
+
+    def emit(self, record: logging.LogRecord) -> None:
+        error = record.exc_info[1] if record.exc_info else None
+        self._on_event(ProtocolTrouble(f"{record.getMessage()}: {error!r}"[:200]))
 
 
 class SocketServer:
@@ -90,6 +109,8 @@ class SocketServer:
         os.close(self._wake_write)
 
     def _run(self, host: str, port: int, ready: threading.Event) -> None:
+        # The default hub keeps an epoll object open beyond the end of its thread.
+        eventlet.hubs.use_hub("poll")
         try:
             listener = eventlet.listen((host, port))
         except OSError as error:
@@ -98,8 +119,7 @@ class SocketServer:
             return
         server = self._socketio_server()
         app = accept_older_queries(socketio.WSGIApp(server))
-        quiet = logging.getLogger("rover_bridge.wsgi")
-        quiet.setLevel(logging.CRITICAL)
+        quiet = logging.Logger("wsgi", logging.CRITICAL)
         pool = eventlet.GreenPool(100)
         acceptor = eventlet.spawn(
             eventlet.wsgi.server, listener, app, log=quiet, log_output=False, custom_pool=pool
@@ -114,7 +134,11 @@ class SocketServer:
             listener.close()
 
     def _socketio_server(self) -> BilingualServer:
+        log = logging.Logger("socketio", logging.ERROR)
+        log.addHandler(_TroubleLog(self._on_event))
         server = BilingualServer(
+            logger=log,
+            engineio_logger=log,
             async_mode="eventlet",
             async_handlers=False,  # keeps the events of one client in order
             max_http_buffer_size=MAX_MESSAGE_BYTES,

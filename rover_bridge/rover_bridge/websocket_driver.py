@@ -5,6 +5,7 @@ The library unmasks byte by byte in Python, which costs milliseconds for a messa
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from typing import Any
 
@@ -27,4 +28,5 @@ class FastWebSocketWSGI(WebSocketWSGI):
     def _handle_hybi_request(self, environ: dict[str, Any]) -> Any:
         websocket = super()._handle_hybi_request(environ)
         websocket._apply_mask = apply_mask
+        websocket.log = io.StringIO()  # it would tell that it closes twice
         return websocket

@@ -1,0 +1,211 @@
+"""The socket server alone: it leaves nothing behind, and what it sends and receives is whole."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from queue import Queue
+
+import pytest
+import socketio
+import websocket
+from eventlet.websocket import RFC6455WebSocket
+from hypothesis import given
+from hypothesis import strategies as st
+from telemetry import telemetry
+
+from rover_bridge.server import (
+    Connected,
+    Disconnected,
+    ProtocolTrouble,
+    ServerEvent,
+    SocketServer,
+    TelemetryReceived,
+)
+from rover_bridge.websocket_driver import apply_mask
+from rover_simulator.unity_client import ConnectionLostError, UnityClient
+
+Events = Queue[ServerEvent]
+
+
+@pytest.fixture
+def events() -> Events:
+    return Queue()
+
+
+@pytest.fixture
+def server(events: Events) -> Iterator[SocketServer]:
+    server = SocketServer("127.0.0.1", 0, events.put)
+    yield server
+    server.close()
+
+
+def url(port: int, query: str = "EIO=4&transport=websocket") -> str:
+    return f"ws://127.0.0.1:{port}/socket.io/?{query}"
+
+
+def next_telemetry(events: Events) -> TelemetryReceived:
+    while not isinstance(event := events.get(timeout=10), TelemetryReceived):
+        pass
+    return event
+
+
+def open_files() -> int:
+    return len(list(Path("/proc/self/fd").iterdir()))
+
+
+def serve_once() -> None:
+    """A server's whole life: two clients of both generations, and one that never says a word."""
+    events: Events = Queue()
+    server = SocketServer("127.0.0.1", 0, events.put)
+    unity = UnityClient("127.0.0.1", server.port)
+    unity.connect(timeout=5)
+    unity.send_telemetry(telemetry())
+    client = next_telemetry(events).client
+    server.send(client, "data", {"throttle": "0"})
+    mute = websocket.create_connection(url(server.port), timeout=5)
+    with socketio.SimpleClient(reconnection=False) as modern:
+        modern.connect(f"http://127.0.0.1:{server.port}", transports=["websocket"])
+        server.close()
+    unity.close()
+    mute.shutdown()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="counts the open files in /proc")
+def test_a_closed_server_leaves_no_thread_and_no_open_file():
+    serve_once()  # what libraries open once and keep
+    files, threads = open_files(), threading.active_count()
+    for _ in range(5):
+        serve_once()
+    assert threading.active_count() == threads
+    assert open_files() <= files
+
+
+def test_the_port_is_free_again_after_closing(events):
+    first = SocketServer("127.0.0.1", 0, events.put)
+    client = UnityClient("127.0.0.1", first.port)
+    client.connect(timeout=5)
+    first.close()
+    second = SocketServer("127.0.0.1", first.port, events.put)
+    second.close()
+    client.close()
+
+
+def test_a_client_notices_that_the_server_has_closed(events):
+    server = SocketServer("127.0.0.1", 0, events.put)
+    client = UnityClient("127.0.0.1", server.port)
+    client.connect(timeout=5)
+    client.send_telemetry(telemetry())
+    next_telemetry(events)
+    server.close()
+    with pytest.raises(ConnectionLostError):
+        while client.receive(timeout=10) is not None:
+            pass
+    client.close()
+
+
+def test_to_send_to_a_client_that_has_left_is_harmless(server, events):
+    client = UnityClient("127.0.0.1", server.port)
+    client.connect(timeout=5)
+    client.send_telemetry(telemetry())
+    gone = next_telemetry(events).client
+    client.close()
+    while not isinstance(events.get(timeout=10), Disconnected):
+        pass
+    server.send(gone, "data", {})
+    server.send("nobody", "data", {})
+    with socketio.SimpleClient() as modern:
+        modern.connect(f"http://127.0.0.1:{server.port}", transports=["websocket"])
+        modern.emit("telemetry", {"alive": "1"})
+        assert next_telemetry(events).wire == {"alive": "1"}
+
+
+@pytest.mark.parametrize("transports", [["polling"], ["polling", "websocket"], ["websocket"]])
+def test_modern_clients_by_any_transport(server, events, transports):
+    if "polling" in transports:
+        pytest.importorskip("requests", reason="the client's polling transport needs requests")
+    with socketio.SimpleClient() as client:
+        client.connect(f"http://127.0.0.1:{server.port}", transports=transports)
+        client.emit("telemetry", telemetry())
+        received = next_telemetry(events)
+        assert received.wire == telemetry()
+        server.send(received.client, "data", {"throttle": "0"})
+        assert client.receive(timeout=10) == ["data", {"throttle": "0"}]
+
+
+def test_an_older_client_is_connected_unasked(server, events):
+    raw = websocket.create_connection(
+        url(server.port, "transport=websocket&EIO=3"), suppress_origin=True, timeout=5
+    )
+    assert str(raw.recv()).startswith("0{")
+    assert str(raw.recv()).startswith("40")
+    assert isinstance(events.get(timeout=10), Connected)
+    raw.close()
+
+
+def test_a_generation_that_is_not_known_is_refused(server):
+    with pytest.raises(websocket.WebSocketBadStatusException):
+        websocket.create_connection(url(server.port, "EIO=2&transport=websocket"), timeout=5)
+
+
+@pytest.mark.parametrize("garbage", ["", "hello", "42[", "4", "42{}", "451-[]", "\x00\xff"])
+def test_garbage_is_reported_or_ignored_and_others_are_served(server, events, capfd, garbage):
+    raw = websocket.create_connection(url(server.port), timeout=5)
+    raw.send(garbage)
+    with socketio.SimpleClient() as modern:
+        modern.connect(f"http://127.0.0.1:{server.port}", transports=["websocket"])
+        modern.emit("telemetry", {"alive": "1"})
+        assert next_telemetry(events).wire == {"alive": "1"}
+    raw.shutdown()
+    assert capfd.readouterr().err == ""
+
+
+def test_what_no_generation_knows_is_reported(server, events):
+    raw = websocket.create_connection(url(server.port), timeout=5)
+    raw.send("42[")
+    while not isinstance(event := events.get(timeout=10), ProtocolTrouble):
+        pass
+    assert "JSONDecodeError" in event.text
+    raw.shutdown()
+
+
+def test_two_unity_clients_are_told_apart(server, events):
+    clients = [UnityClient("127.0.0.1", server.port) for _ in range(2)]
+    for number, client in enumerate(clients):
+        client.connect(timeout=5)
+        client.send_telemetry({"number": str(number)})
+        received = next_telemetry(events)
+        assert received.wire == {"number": str(number)}
+        server.send(received.client, "data", {"to": str(number)})
+    for number, client in enumerate(clients):
+        while not (event := client.receive(timeout=10)) or event.name != "data":
+            assert event is not None
+        assert event.data == {"to": str(number)}
+        client.close()
+
+
+@given(
+    data=st.binary(max_size=70), mask=st.binary(min_size=4, max_size=4), offset=st.integers(0, 9)
+)
+def test_unmasking_is_the_librarys(data, mask, offset):
+    expected = RFC6455WebSocket._apply_mask(data, tuple(mask), len(data), offset)
+    assert apply_mask(data, tuple(mask), len(data), offset) == expected
+
+
+def test_a_port_in_use_ends_the_node_with_one_sentence(server):
+    program = "from rover_bridge.node import main; main()"
+    arguments = ["--ros-args", "-p", f"port:={server.port}", "-p", "host:=127.0.0.1"]
+    ended = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", program, *arguments],
+        env=os.environ | {"ROS_DOMAIN_ID": "98"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert ended.returncode == 1
+    (line,) = ended.stderr.strip().splitlines()
+    assert f"port {server.port} of 127.0.0.1 is in use" in line
