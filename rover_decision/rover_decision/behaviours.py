@@ -22,6 +22,7 @@ Action = tuple[Command, str]
 STANDING = 0.1  # [m/s]
 CREEP = 0.5  # [m/s] beside a rock: slow enough to keep the camera level
 REACHED = 1.2  # [m] distance at which a point of the way home counts as reached
+LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
 BACK_UP_SECONDS = 2.0  # [s]
 TURN_SECONDS = 2.5  # [s]
 
@@ -36,13 +37,14 @@ def explore(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Act
     return _drive_towards(snapshot, terrain, bearing, config.top_speed), "follows the wall"
 
 
-def look_for_a_way(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Action:
-    """Stop, then turn on the spot, to the left by habit, until there is a way."""
+def look_for_a_way(
+    snapshot: Snapshot, terrain: Terrain, side: int, config: DecisionConfig
+) -> Action:
+    """Stop, then turn on the spot to one side (+1 left) until there is a way."""
     if abs(snapshot.vehicle.speed) > STANDING * 2:
         return motion.stop(), "no way ahead: stops"
-    bearing = terrain.best_bearing(0.0, config.go_clearance)
-    if terrain.clearance(bearing) < config.go_clearance:
-        bearing = math.radians(60.0)
+    way = terrain.way(config.go_clearance)
+    bearing = side * LOOK_AROUND if way is None else way
     return motion.turn_in_place(snapshot.vehicle.speed, bearing), "turns to find a way"
 
 

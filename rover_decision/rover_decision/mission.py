@@ -20,6 +20,7 @@ from rover_decision.terrain import Terrain
 
 PICKUP_START_SECONDS = 4.0  # [s] for a pickup to show in the telemetry after it was asked for
 RECOVERY_SECONDS = behaviours.BACK_UP_SECONDS + behaviours.TURN_SECONDS
+WAY_AHEAD = math.radians(8.0)  # a way this near to straight ahead can be driven into
 RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
 MOVING_STATES = (State.FORWARD, State.STOP, State.ROCK_APPROACH, State.RETURN_HOME)
 
@@ -75,7 +76,7 @@ class Mission:
         target = self._target(snapshot)
         event = self._what_happened(snapshot, terrain, target)
         if event is not None and self._machine.handle(event):
-            self._on_entry(snapshot)
+            self._on_entry(snapshot, terrain)
         command, reason = self._act(snapshot, terrain, target)
         return Decision(command, self.state, reason, self._report(snapshot))
 
@@ -154,23 +155,25 @@ class Mission:
             return Event.arrived if home else None
         if self._finished(snapshot):
             return Event.finished
-        clearance = terrain.clearance(0.0)
-        if self.state is State.FORWARD and clearance < self._config.stop_clearance:
-            return Event.blocked
-        if self.state is State.STOP and clearance > self._config.go_clearance:
-            return Event.cleared
-        return None
+        if self.state is State.FORWARD:
+            blocked = terrain.clearance(0.0) < self._config.stop_clearance
+            return Event.blocked if blocked else None
+        way = terrain.way(self._config.go_clearance)
+        ahead = way is not None and abs(way) < WAY_AHEAD
+        return Event.cleared if self.state is State.STOP and ahead else None
 
     def _finished(self, snapshot: Snapshot) -> bool:
         collected = self._samples_total > 0 and snapshot.vehicle.sample_count == 0
         return collected or self._elapsed(snapshot) > self._config.explore_limit
 
-    def _on_entry(self, snapshot: Snapshot) -> None:
+    def _on_entry(self, snapshot: Snapshot, terrain: Terrain) -> None:
         self._entered = snapshot.time
         self._pickup_seen = False
         self._progress.restart()
+        if self.state is State.STOP:
+            self._side = terrain.roomier_side()
         if self.state is State.STUCK:
-            self._side = -self._side
+            self._side = -self._side  # what was tried before did not help
         if self.state is State.RETURN_HOME:
             self._way = behaviours.plan_home(self.crumbs, snapshot.vehicle.pose)
 
@@ -182,7 +185,7 @@ class Mission:
             case State.FORWARD:
                 return behaviours.explore(snapshot, terrain, self._config)
             case State.STOP:
-                return behaviours.look_for_a_way(snapshot, terrain, self._config)
+                return behaviours.look_for_a_way(snapshot, terrain, self._side, self._config)
             case State.ROCK_APPROACH:
                 return behaviours.approach(snapshot, target)
             case State.PICKUP:

@@ -51,5 +51,15 @@ class Terrain:
         distance = np.where(open_way, np.abs(candidates - wanted), np.inf)
         return float(candidates[np.argmin(distance)])
 
+    def way(self, length: float) -> float | None:
+        """The bearing nearest to straight ahead that is free for `length` [m], if there is one."""
+        bearing = self.best_bearing(0.0, length)
+        return bearing if self.clearance(bearing) >= length else None
+
+    def roomier_side(self) -> int:
+        """+1 where there is more room to the left, else -1."""
+        left, right = self.ranges[self.bearings > 0], self.ranges[self.bearings < 0]
+        return 1 if left.sum() >= right.sum() else -1
+
     def _increment(self) -> float:
         return float(self.bearings[1] - self.bearings[0]) if len(self.bearings) > 1 else 1.0

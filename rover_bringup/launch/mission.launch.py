@@ -1,0 +1,66 @@
+"""The three nodes of the mission, and RViz on request.
+
+ros2 launch rover_bringup mission.launch.py [params_file:=FILE] [use_sim_time:=true]
+    [namespace:=NAME] [log_level:=info] [use_rviz:=true] [host:=127.0.0.1] [port:=4567]
+"""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+ARGUMENTS = {
+    "params_file": (None, "parameters of all nodes"),
+    "use_sim_time": ("false", "take the time from /clock, as the embedded simulator sends it"),
+    "namespace": ("", "namespace of the nodes and their topics"),
+    "log_level": ("info", "debug, info, warn or error"),
+    "use_rviz": ("false", "start RViz with the rover's view"),
+    "host": ("127.0.0.1", "address that the bridge listens on"),
+    "port": ("4567", "TCP port that the bridge listens on"),
+}
+NODES = {
+    "rover_bridge": "bridge_node",
+    "rover_perception": "perception_node",
+    "rover_decision": "decision_node",
+}
+
+
+def generate_launch_description() -> LaunchDescription:
+    share = FindPackageShare("rover_bringup")
+    defaults = {name: default for name, (default, _) in ARGUMENTS.items()}
+    defaults["params_file"] = PathJoinSubstitution([share, "config", "rover.yaml"])
+    arguments = [
+        DeclareLaunchArgument(name, default_value=defaults[name], description=description)
+        for name, (_, description) in ARGUMENTS.items()
+    ]
+    use_sim_time = ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)
+    address = {
+        "host": ParameterValue(LaunchConfiguration("host"), value_type=str),
+        "port": ParameterValue(LaunchConfiguration("port"), value_type=int),
+    }
+    nodes = [
+        Node(
+            package=package,
+            executable=executable,
+            name=executable,
+            namespace=LaunchConfiguration("namespace"),
+            output="screen",
+            parameters=[
+                LaunchConfiguration("params_file"),
+                {"use_sim_time": use_sim_time},
+                address if package == "rover_bridge" else {},
+            ],
+            arguments=["--ros-args", "--log-level", LaunchConfiguration("log_level")],
+        )
+        for package, executable in NODES.items()
+    ]
+    rviz = Node(
+        package="rviz2",
+        executable="rviz2",
+        arguments=["-d", PathJoinSubstitution([share, "rviz", "rover.rviz"])],
+        condition=IfCondition(LaunchConfiguration("use_rviz")),
+    )
+    return LaunchDescription([*arguments, *nodes, rviz])

@@ -1,0 +1,66 @@
+"""`rover replay` as a user calls it: three processes, a result folder, one JSON object."""
+
+import json
+import os
+import subprocess
+import sys
+
+import cv2
+import numpy as np
+
+from rover_simulator.recorder import record_drive
+
+KEYS = {
+    "frames", "frames_skipped", "frames_per_second", "latency_ms_p50", "latency_ms_p99",
+    "percent_mapped", "fidelity", "f1", "rocks_located", "rocks_missed", "rocks_false",
+}  # fmt: skip
+
+
+def rover(*arguments: str) -> subprocess.CompletedProcess[str]:
+    environment = {k: v for k, v in os.environ.items() if k != "ROS_DOMAIN_ID"}
+    return subprocess.run(
+        [sys.executable, "-m", "rover_bringup.cli", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=environment,
+    )
+
+
+def test_replay(tmp_path):
+    drive = record_drive(tmp_path / "drive", seed=1, frames=60)
+    log = drive.folder / "robot_log.csv"
+    lines = log.read_text().splitlines()
+    log.write_text("\n".join([*lines[:30], "broken;row", *lines[30:]]))
+    out = tmp_path / "result"
+    done = rover(
+        "replay", str(drive.folder), "--truth", str(drive.truth), "--samples", str(drive.samples),
+        "--out", str(out), "--json",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    (line,) = done.stdout.splitlines()
+    result = json.loads(line)
+    assert set(result) >= KEYS
+    assert (result["frames"], result["frames_skipped"]) == (60, 1)
+    assert result["fidelity"] > 90
+    assert result["percent_mapped"] > 2
+    assert json.loads((out / "result.json").read_text()) == result
+    assert cv2.imread(str(out / "map.png")) is not None
+    pgm = cv2.imread(str(out / "worldmap.pgm"), cv2.IMREAD_UNCHANGED)
+    assert pgm.shape == (200, 200)
+    assert np.count_nonzero(pgm == 254) > 20
+    assert (out / "worldmap.yaml").exists()
+
+
+def test_replay_of_nothing_is_one_sentence(tmp_path):
+    done = rover("replay", str(tmp_path))
+    assert done.returncode == 1
+    assert done.stderr.startswith("rover replay: ")
+    assert "robot_log.csv" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_an_unknown_command_is_told():
+    done = rover("dance")
+    assert done.returncode == 2
+    assert "no command 'dance'" in done.stderr
