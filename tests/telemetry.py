@@ -15,8 +15,10 @@ START = Pose(99.67, 85.589, 0.9918)
 
 def jpeg(level: int = 128, width: int = 320, height: int = 160) -> bytes:
     """A grey JPEG file with some texture, so that it is about as large as a real one."""
-    noise = np.random.default_rng(0).normal(level, 12, (height, width, 3))
-    data = cv2.imencode(".jpg", np.clip(noise, 0, 255).astype(np.uint8))[1]
+    noise = np.random.default_rng(0).normal(level, 8, (height, width, 3))
+    data = cv2.imencode(
+        ".jpg", np.clip(noise, 0, 255).astype(np.uint8), [cv2.IMWRITE_JPEG_QUALITY, 75]
+    )[1]
     return bytes(data.tobytes())
 
 

@@ -52,6 +52,7 @@ class BridgeNode(Node):
         config = declare_parameters(self, BridgeConfig)
         self._exchange = Exchange(config.answer_deadline)
         self._comma_clients: set[str] = set()
+        self._warned: dict[str, float] = {}  # [s] wall time of the last line of each kind
         self._make_endpoints()
         self._inbox: deque[ServerEvent] = deque()
         self._arrival = self.create_guard_condition(self._on_arrivals)
@@ -110,7 +111,7 @@ class BridgeNode(Node):
                 self.get_logger().info(f"client {event.client} connected")
             elif isinstance(event, ProtocolTrouble):
                 self._diagnostics.counts["protocol_troubles"] += 1
-                self._warn(f"garbage from a client: {event.text}")
+                self._warn("protocol_troubles", f"garbage from a client: {event.text}")
             else:
                 self.get_logger().info(f"client {event.client} disconnected")
                 self._exchange.leave(event.client)
@@ -122,20 +123,22 @@ class BridgeNode(Node):
             self._comma_clients.add(event.client)
         client, driver = event.client, self._exchange.driver
         if not self._exchange.admit(client, time.monotonic()):
-            self._warn("another client drives: this one is answered with the brake")
+            self._warn(
+                "second_client", "another client drives: this one is answered with the brake"
+            )
             self._send(Answer(client, SAFE_COMMAND, "second_client"))
             return
         if self._exchange.driver != driver:
             self.get_logger().info(f"client {client} drives")
             self._publish_driver()
         if self._exchange.full:
-            self._warn("too many telemetries at once: answering with the brake")
+            self._warn("overloaded", "too many telemetries at once: answering with the brake")
             self._send(Answer(client, SAFE_COMMAND, "overloaded"))
             return
         try:
             telemetry = decode_telemetry(event.wire)
         except TelemetryError as error:
-            self._warn(f"telemetry dropped: {error}")
+            self._warn(error.counter, f"telemetry dropped: {error}")
             self._send(Answer(client, SAFE_COMMAND, error.counter))
             return
         self._diagnostics.counts["telemetries"] += 1
@@ -169,12 +172,12 @@ class BridgeNode(Node):
             self._diagnostics.counts["commands_late"] += 1
             return
         if answer.why == "pickup_refused":
-            self._warn("pickup refused: no sample in reach, or not standing still")
+            self._warn(answer.why, "pickup refused: no sample in reach, or not standing still")
         self._send(answer)
 
     def _on_deadline_look(self) -> None:
         for answer in self._exchange.expire(time.monotonic()):
-            self._warn("no decision in time: braking")
+            self._warn(answer.why, "no decision in time: braking")
             self._send(answer)
 
     def _send(self, answer: Answer) -> None:
@@ -197,8 +200,12 @@ class BridgeNode(Node):
     def _now(self) -> int:
         return int(self.get_clock().now().nanoseconds)
 
-    def _warn(self, text: str) -> None:
-        self.get_logger().warning(text, throttle_duration_sec=LOG_PERIOD)
+    def _warn(self, kind: str, text: str) -> None:
+        """Log a line, unless one of its kind was logged just now."""
+        now = time.monotonic()
+        if now - self._warned.get(kind, -LOG_PERIOD) >= LOG_PERIOD:
+            self._warned[kind] = now
+            self.get_logger().warning(text)
 
 
 def main() -> None:

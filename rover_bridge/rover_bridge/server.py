@@ -62,8 +62,8 @@ class _TroubleLog(logging.Handler):
         self._on_event = on_event
 
     def emit(self, record: logging.LogRecord) -> None:
-        error = record.exc_info[1] if record.exc_info else None
-        self._on_event(ProtocolTrouble(f"{record.getMessage()}: {error!r}"[:200]))
+        cause = f": {record.exc_info[1]!r}" if record.exc_info else ""
+        self._on_event(ProtocolTrouble((record.getMessage() + cause)[:200]))
 
 
 class SocketServer:

@@ -319,3 +319,68 @@ def test_the_image_size_is_told(ros, bridge):
         return str(event.data["brake"])
 
     assert run_clients(ros, body) == ["1.0000"]
+
+
+def test_a_pickup_goes_out_once_and_then_the_brake(ros):
+    node = ros.add(BridgeNode, port=0, answer_deadline=5.0)
+    decider = ros.add(lambda **kwargs: Decider(Command(brake=1.0, pickup=True), **kwargs))
+    assert ros.spin_until(lambda: node.count_subscribers(topics.COMMAND) > 0)
+    assert ros.spin_until(lambda: decider.count_publishers(topics.STATUS) > 0)
+    states = [
+        {"near_sample": False},
+        {"near_sample": True, "speed": 1.0},
+        {"near_sample": True},
+        {"near_sample": True},  # was in flight already
+        {"near_sample": True, "picking_up": True},
+    ]
+
+    def body() -> list[tuple[str, dict[str, str]]]:
+        client = UnityClient("127.0.0.1", node.port)
+        client.connect(timeout=5)
+        answers = []
+        for state in states:
+            client.send_telemetry(telemetry(**state))
+            while (event := client.receive(timeout=10)) and event.name == OPEN:
+                pass
+            assert event is not None
+            answers.append((event.name, dict(event.data)))
+        client.close()
+        return answers
+
+    (answers,) = run_clients(ros, body)
+    assert [name for name, _ in answers] == ["data", "data", "pickup", "data", "data"]
+    assert answers[2][1] == {}
+    assert all(data["brake"] == "1.0000" for name, data in answers if name == "data")
+
+
+def test_a_decimal_comma_is_answered_with_one(ros, bridge):
+    def body() -> dict[str, str]:
+        client = UnityClient("127.0.0.1", bridge.port)
+        client.connect(timeout=5)
+        client.send_telemetry(telemetry(decimal=","))
+        while (event := client.receive(timeout=10)) and event.name == OPEN:
+            pass
+        client.close()
+        assert event is not None
+        return dict(event.data)
+
+    (answer,) = run_clients(ros, body)
+    assert answer["throttle"] == "0,2500"
+
+
+def test_a_flood_is_answered_telemetry_by_telemetry(ros, bridge):
+    count = 200
+
+    def body() -> int:
+        client = UnityClient("127.0.0.1", bridge.port)
+        client.connect(timeout=5)
+        for _ in range(count):
+            client.send_telemetry(telemetry())
+        answers = 0
+        while answers < count and (event := client.receive(timeout=10)):
+            answers += event.name == "data"
+        assert client.receive(timeout=0.5) is None
+        client.close()
+        return answers
+
+    assert run_clients(ros, body) == [count]
