@@ -19,6 +19,7 @@ FRAGMENT_BYTES = 1016
 PING_PERIOD = 25.0  # [s] after each pong
 RECONNECT_PAUSE = 0.005  # [s]
 SEND_TIMEOUT = 5.0  # [s]
+SHORTEST_WAIT = 0.001  # [s]
 
 # Each of these events is answered with exactly one telemetry.
 ANSWERED_EVENTS = frozenset({"data", "manual", "pickup", "fixed_turn"})
@@ -78,7 +79,7 @@ class UnityClient:
         self._send("42" + arguments)
 
     def receive(self, timeout: float) -> Event | None:
-        """The next event, or None after `timeout` [s].
+        """The next event, or None after `timeout` [s]; 0 looks for what is there already.
 
         Answers and sends pings on the way. Raises ConnectionLostError, and ProtocolError after
         closing the socket.
@@ -86,13 +87,18 @@ class UnityClient:
         end = time.monotonic() + timeout
         while True:
             self._ping_when_due()
-            left = end - time.monotonic()
-            if left <= 0:
-                return None
-            message = self._receive_text(left)
+            message = self._receive_text(max(0.0, end - time.monotonic()))
             event = None if message is None else self._event(message)
             if event is not None:
                 return event
+            if message is None and time.monotonic() >= end:
+                return None
+
+    def fileno(self) -> int:
+        """The socket's file descriptor, readable when `receive` has something to read."""
+        raw_socket = self._connected().sock
+        assert raw_socket is not None
+        return int(raw_socket.fileno())
 
     def close(self, say_goodbye: bool = False) -> None:
         """Close the socket; `say_goodbye` sends what the application sends when it is quit."""
@@ -131,7 +137,8 @@ class UnityClient:
 
     def _receive_text(self, timeout: float) -> str | None:
         socket = self._connected()
-        socket.settimeout(min(timeout, 1.0))  # wakes for a ping that falls due
+        # Wakes for a ping that falls due; 0 would mean a socket that raises instead of waiting.
+        socket.settimeout(min(max(timeout, SHORTEST_WAIT), 1.0))
         try:
             opcode, data = socket.recv_data()
         except websocket.WebSocketTimeoutException:

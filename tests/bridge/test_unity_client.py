@@ -1,6 +1,7 @@
 """The simulator's side of the wire, byte for byte."""
 
 import json
+import select
 import socket
 import struct
 import threading
@@ -10,7 +11,13 @@ from hashlib import sha1
 import pytest
 from telemetry import telemetry
 
-from rover_simulator.unity_client import FRAGMENT_BYTES, Event, ProtocolError, UnityClient
+from rover_simulator.unity_client import (
+    FRAGMENT_BYTES,
+    ConnectionLostError,
+    Event,
+    ProtocolError,
+    UnityClient,
+)
 
 GUID = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 
@@ -138,3 +145,47 @@ def test_goodbye(wire):
     client.close(say_goodbye=True)
     assert server.frame()[2] == b"41"
     assert server.frame()[2] == b"1"
+
+
+def test_a_look_without_waiting_finds_what_has_arrived(wire):
+    client, server = wire
+    assert client.receive(0) is None
+    server.send('42["manual"]')
+    assert select.select([client], [], [], 5)[0] == [client]
+    assert client.receive(0) == Event("manual")
+
+
+def test_a_frame_that_comes_in_two_parts_is_whole(wire):
+    client, server = wire
+    payload = b'42["data",{"throttle":"0"}]'
+    server.connection.sendall(bytes([0x81, len(payload)]) + payload[:7])
+    assert client.receive(0.01) is None
+    server.connection.sendall(payload[7:])
+    assert client.receive(5) == Event("data", {"throttle": "0"})
+
+
+def test_a_websocket_ping_is_answered(wire):
+    client, server = wire
+    server.frame()
+    server.connection.sendall(bytes([0x89, 2]) + b"hi")
+    assert client.receive(0.05) is None
+    assert server.frame() == (True, 0xA, b"hi")
+
+
+def test_the_next_ping_comes_a_period_after_the_pong(wire, monkeypatch):
+    client, server = wire
+    monkeypatch.setattr("rover_simulator.unity_client.PING_PERIOD", 0.0)
+    assert server.frame() == (True, 1, b"2")
+    server.send("3")
+    assert client.receive(0.05) is None
+    assert server.frame() == (True, 1, b"2")
+
+
+def test_it_tries_until_a_server_is_there():
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        port = probe.getsockname()[1]
+    client = UnityClient("127.0.0.1", port)
+    with pytest.raises(ConnectionLostError):
+        client.connect(timeout=1)
+    tries = iter([False, False, False, True])
+    assert not client.connect_until(lambda: next(tries))
