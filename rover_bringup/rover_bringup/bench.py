@@ -7,8 +7,6 @@ import sys
 
 BENCHMARKS = {
     "graph": ("rover_bringup.bench_graph", "telemetry to command through the three nodes"),
-    "perception": ("rover_bringup.bench_perception", "time per frame and map scores"),
-    "simulator": ("rover_bringup.bench_simulator", "the embedded simulator against recordings"),
 }
 
 

@@ -8,10 +8,8 @@ import sys
 # Imported only when called: each needs other libraries, and start-up time is felt.
 COMMANDS = {
     "demo": ("rover_bringup.demo", "a drive through a generated canyon, mapped and scored"),
-    "mission": ("rover_bringup.mission", "a whole mission in the embedded simulator"),
     "replay": ("rover_bringup.replay", "play a recorded run through the graph and score the map"),
-    "sim": ("rover_simulator.main", "the embedded simulator alone, for any server"),
-    "bench": ("rover_bringup.bench", "benchmarks: graph, perception, simulator"),
+    "bench": ("rover_bringup.bench", "benchmarks: graph"),
 }
 
 
