@@ -27,13 +27,18 @@ class Terrain:
 
     def clearance(self, bearing: float) -> float:
         """Free length [m] of the straight corridor in this direction; 0 when nothing is seen."""
+        return float(self._clearances(np.array([bearing]))[0])
+
+    def _clearances(self, bearings: NDArray[np.floating]) -> NDArray[np.floating]:
+        """The same for many directions (m,) [rad] at once."""
         if len(self.ranges) == 0:
-            return 0.0
-        angle = self.bearings - bearing
+            return np.zeros(len(bearings))
+        angle = self.bearings - bearings[:, None]
         ahead = self.ranges * np.cos(angle)
         aside = np.abs(self.ranges * np.sin(angle))
         blocking = (aside < self.corridor) & (ahead > 0)
-        return float(ahead[blocking].min()) if blocking.any() else float(self.ranges.max())
+        nearest = np.where(blocking, ahead, np.inf).min(axis=1)
+        return np.minimum(nearest, self.ranges.max())
 
     def best_bearing(self, wanted: float, length: float) -> float:
         """The bearing closest to the wanted one whose corridor is free for `length` [m].
@@ -44,7 +49,7 @@ class Terrain:
             return wanted
         step = max(1, round(math.radians(4.0) / max(1e-3, self._increment())))
         candidates = self.bearings[::step]
-        free = np.array([self.clearance(float(candidate)) for candidate in candidates])
+        free = self._clearances(candidates)
         open_way = free >= length
         if not open_way.any():
             return float(candidates[np.argmax(free)])
