@@ -1,0 +1,129 @@
+"""./rover on a machine where something is missing: one clear sentence, and nothing half done."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+# What the launcher itself calls; the compiler, CMake and make are left out one at a time.
+TOOLS = (
+    "awk", "bash", "cat", "cut", "df", "dirname", "env", "find", "flock", "grep", "mkdir",
+    "readlink", "rm", "sed", "sha256sum", "sort", "tail", "uname", "xargs",
+)  # fmt: skip
+BUILD_TOOLS = ("c++", "cmake", "make")
+PYTHON = os.path.realpath(os.environ.get("VIRTUAL_ENV", "") + "/bin/python3")
+
+
+class Machine:
+    """A copy of the launcher in a folder of its own, with chosen tools on the path."""
+
+    def __init__(self, folder: Path) -> None:
+        self.root = folder / "a checkout"  # with a space
+        self.bin = folder / "bin"
+        self.bin.mkdir(parents=True)
+        shutil.copytree(ROOT / "wheels", self.root / "wheels")
+        shutil.copy(ROOT / "rover", self.root / "rover")
+        for tool in (*TOOLS, *BUILD_TOOLS):
+            found = shutil.which(tool)
+            assert found, tool
+            (self.bin / tool).symlink_to(found)
+
+    def without(self, tool: str) -> None:
+        (self.bin / tool).unlink()
+
+    def fake(self, tool: str, script: str) -> None:
+        (self.bin / tool).unlink()
+        (self.bin / tool).write_text(f"#!/bin/sh\n{script}\n")
+        (self.bin / tool).chmod(0o755)
+
+    def rover(self, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [str(self.root / "rover"), *arguments],
+            env={"PATH": str(self.bin), "PYTHON": PYTHON, "HOME": "/nonexistent", **environment},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+
+
+@pytest.fixture
+def machine(tmp_path):
+    return Machine(tmp_path)
+
+
+def test_doctor_on_a_complete_machine(machine):
+    done = machine.rover("doctor")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "missing" not in done.stdout
+    assert "to do" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("tool", "sentence"),
+    [
+        ("c++", "no C++ compiler here; install g++"),
+        ("cmake", "no CMake here; install cmake"),
+        ("make", "no make here; install make"),
+    ],
+)
+def test_a_missing_tool_is_one_sentence(machine, tool, sentence):
+    machine.without(tool)
+    doctor = machine.rover("doctor")
+    assert doctor.returncode == 1
+    assert sentence in doctor.stdout
+    build = machine.rover("build")
+    assert build.returncode == 1
+    assert build.stderr == f"rover: {sentence}\n"
+    assert not (machine.root / ".venv").exists()
+
+
+def test_a_wrong_python_is_one_sentence(machine):
+    done = machine.rover("build", PYTHON="/bin/false")
+    assert done.returncode == 1
+    assert done.stderr.startswith("rover: no Python 3.11 or 3.12 here")
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_full_disk_is_one_sentence(machine):
+    machine.fake("df", "echo head; echo dev 100 90 10 90% /")
+    done = machine.rover("build")
+    assert done.returncode == 1
+    assert done.stderr == "rover: the disk is too full: 10 MB free, 1500 MB are needed\n"
+
+
+def test_no_network_is_told_and_nothing_counts_as_done(machine):
+    done = machine.rover(
+        "build",
+        PIP_INDEX_URL="http://127.0.0.1:9/simple",
+        PIP_CONFIG_FILE="/dev/null",
+        PIP_RETRIES="0",
+        PIP_NO_CACHE_DIR="1",
+    )
+    assert done.returncode == 1
+    assert "the package index cannot be reached: is there a network?" in done.stderr
+    assert not (machine.root / ".venv" / ".stamp").exists()
+    assert "to do" in machine.rover("doctor").stdout
+
+
+def test_leftovers_of_another_environment_do_no_harm(machine):
+    done = machine.rover(
+        "doctor",
+        PYTHONPATH="/elsewhere",
+        PYTHONHOME="",
+        LD_LIBRARY_PATH="/elsewhere",
+        VIRTUAL_ENV="/elsewhere",
+        _ROS_WHEELS_BOOTSTRAP_COMPLETE="1",
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_help_and_unknown_commands(machine):
+    assert "usage: ./rover COMMAND" in machine.rover("--help").stdout
+    done = machine.rover("dance")
+    assert done.returncode == 1
+    assert done.stderr.endswith("rover: no command 'dance'\n")
