@@ -10,10 +10,14 @@ from numpy.typing import NDArray
 
 from rover_perception.view import View
 
-# Red channel: sunlit sand 241 +- 12, shadowed 208 +- 13, walls 36 +- 19. Where sand blends into
-# the wall, this level is about the edge of the flat floor: 202 and 170 (shadow) at a sand weight of
-# 0.6 to 0.8, 149 at 0.4 to 0.6.
-GROUND_RED = 170.0
+# Ground ends where it is darker than this share of the ground before it. Sand that blends into a
+# wall at a weight of 0.6 to 0.8 has 0.84 of the red of pure sand in the sun (202 of 241), 0.82 in
+# shadow (170 of 208); at 0.4 to 0.6 it has 0.62 and 0.64. A share needs no telling of sun from
+# shadow. That it is 0.72, the middle between the two, was found on generated canyons.
+GROUND_SHARE = 0.72
+GROUND_BEFORE = (5, 31)  # [px] columns and rows over which the ground before a pixel is averaged
+# Shadowed blends of 0.6 to 0.8 have red 170 +- 15, sky up to 163; walls 36 +- 19.
+LEAST_RED = 150
 # Yellow samples: blue is 0.08 (near) to 0.5 (12 m away) of green; sand 0.93, walls 0.84. The JPEG
 # files hold colour at half resolution, which spreads yellow over the bright sand around a sample;
 # there it is paler, and brighter (green 225 +- 18) than the sample itself (at most 194).
@@ -36,16 +40,6 @@ class Columns:
     blocked: NDArray[np.bool_]  # (width,) whether an obstacle stands there
 
 
-SAND_BLUE_OF_GREEN = 0.93
-
-
-def yellowness(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """How much less blue each pixel (height, width) is than sand of its brightness, 0 to 255."""
-    _, green, blue = cv2.split(image)
-    sand = cv2.convertScaleAbs(green, alpha=SAND_BLUE_OF_GREEN)
-    return np.asarray(cv2.subtract(sand, blue), np.uint8)
-
-
 def rock_mask(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Pixels (height, width) of yellow samples: 255, else 0."""
     _, green, blue = cv2.split(image)
@@ -66,14 +60,15 @@ def ground_columns(
     horizon = view.horizon(np.arange(width) + 0.5)
     top = int(np.clip(np.floor(horizon.min()) - ABOVE_HORIZON, 0, height - 2))
     red = np.asarray(cv2.medianBlur(np.ascontiguousarray(image[top:, :, 0]), 3), np.uint8)
+    level = _ground_level(red)
     if rocks is not None:
         red[rocks[top:] > 0] = 255
     row = np.arange(top, height)[:, None] + 0.5
-    ground = (red > GROUND_RED) & (row > horizon - ABOVE_HORIZON)
+    ground = (red > level) & (row > horizon - ABOVE_HORIZON)
     upwards = ~ground[::-1]
     steps = np.where(upwards.any(axis=0), upwards.argmax(axis=0), len(red))
     last = len(red) - steps  # first ground row from the top of the run, relative to `top`
-    edge = top + last + _blend(red, last)
+    edge = top + last + _blend(red, level, last)
     reach = np.where(steps == 0, float(height), edge)
     slope = reach < horizon + SLOPE_MARGIN
     near = horizon + view.height * view.camera.focal / SLOPE_RANGE
@@ -81,10 +76,21 @@ def ground_columns(
     return Columns(horizon, np.maximum(reach, horizon + 0.5), ~slope)
 
 
-def _blend(red: NDArray[np.uint8], last: NDArray[np.intp]) -> NDArray[np.floating]:
+def _ground_level(red: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The red (rows, width) above which a pixel is ground, by the ground below it."""
+    before = cv2.blur(red, GROUND_BEFORE, anchor=(-1, 0), borderType=cv2.BORDER_REPLICATE)
+    level = np.asarray(cv2.convertScaleAbs(before, alpha=GROUND_SHARE), np.uint8)
+    return np.maximum(level, np.uint8(LEAST_RED))
+
+
+def _blend(
+    red: NDArray[np.uint8], level: NDArray[np.uint8], last: NDArray[np.intp]
+) -> NDArray[np.floating]:
     """Where between the centres of the two pixels the level is crossed, from the edge [px]."""
     column = np.arange(red.shape[1])
     inside = red[np.clip(last, 0, len(red) - 1), column].astype(float)
     outside = red[np.clip(last - 1, 0, len(red) - 1), column].astype(float)
-    share = (GROUND_RED - outside) / np.maximum(inside - outside, 1.0)
+    share = (level[np.clip(last - 1, 0, len(red) - 1), column] - outside) / np.maximum(
+        inside - outside, 1.0
+    )
     return np.clip(share, 0.0, 1.0) - 0.5

@@ -16,8 +16,8 @@ class PerceptionConfig:
         0.25, "[m] cell in which evidence is kept; divides the map's", minimum=0.05, maximum=1.0
     )
     max_range: float = parameter(
-        12.0,
-        "[m] ground beyond is not mapped: a pixel there is 5 m long",
+        16.0,
+        "[m] ground beyond is not mapped: a row of pixels there is 10 m long",
         minimum=2.0,
         maximum=30.0,
     )

@@ -1,8 +1,10 @@
-"""Evidence per cell: how often, and how surely, it was seen free or blocked.
+"""Evidence per cell: how often, how surely and from how near it was seen free or blocked.
 
-Each frame adds to both sums, so the order of frames does not matter and what was wrong is
-outvoted by what is seen better. How sure a frame is of a cell is a matter of pixels: a cell far
-below the row where the ground ends is surely free at any range, one at that row is not at all.
+Each frame adds to sums, so the order of frames does not matter, and what was wrong is outvoted by
+what is seen better. How sure a frame is of a cell is a matter of pixels: a cell far below the row
+where the ground ends is surely free at any range, one at that row is not at all. How much that
+counts is a matter of range: what errs from afar errs in every frame alike, so that no number of far
+looks may outvote a near one.
 """
 
 from __future__ import annotations
@@ -18,18 +20,25 @@ from rover_perception.view import View
 EDGE_ERROR = 0.7  # [px] of the row where the ground ends: JPEG blocks and the median filter
 FLOOR_ERROR = 0.03  # [m] height of ground that is still bright: the first 0.2 m of a wall's foot
 FOOT_DEPTH = 0.5  # [m] of an obstacle behind its foot that is taken as seen
+# Behind its foot an obstacle goes on, nobody knows how far. That is worth little, but more than to
+# have seen ground there from afar: sand that rises towards a wall looks like ground beyond it.
+BODY_DEPTH = 4.0  # [m] of an obstacle that is guessed at, falling with the square of the depth
+# A pixel's length on the ground grows with the square of the range; weight is its inverse square.
+FULL_WEIGHT_RANGE = 2.0  # [m] up to here, every look counts the same
+WEIGHT_POWER = 4
 NEAR = 0.7  # [m] the camera sees no ground nearer than this
 
 
 class EvidenceGrid:
-    """Sums of evidence over the world."""
+    """Sums of evidence over the world, each (rows, cols)."""
 
     def __init__(self, geometry: GridGeometry, max_range: float) -> None:
         self.geometry = geometry
-        self.free = np.zeros((geometry.rows, geometry.cols), np.float32)
-        self.blocked = np.zeros_like(self.free)
+        self.free = np.zeros((geometry.rows, geometry.cols), np.float32)  # weighted looks
+        self.blocked = np.zeros_like(self.free)  # weighted looks
+        self.looks = np.zeros_like(self.free)  # sure looks of either kind, from any range
         reach = int(np.ceil(max_range / geometry.resolution))
-        steps = np.arange(-reach, reach + 1)
+        steps = np.arange(-reach, reach + 1, dtype=np.int32)
         row, col = np.meshgrid(steps, steps, indexing="ij")
         near = np.hypot(row, col) * geometry.resolution <= max_range
         self._row, self._col = row[near], col[near]
@@ -38,40 +47,39 @@ class EvidenceGrid:
         """Add one frame; returns the level-frame points (x, y) [m] of the cells it saw free."""
         row, col, x, y = self._cells_ahead(pose)
         u, v, depth = view.pixels(x, y)
-        width = len(columns.reach)
-        seen = (depth > 0.1) & (u >= 0) & (u < width) & (v < view.camera.height)
-        row, col, x, y = row[seen], col[seen], x[seen], y[seen]
-        u, v = u[seen].astype(np.intp), v[seen]
-        below_horizon = v - columns.horizon[u]
-        margin = v - columns.reach[u]
-        error = np.sqrt(
-            EDGE_ERROR**2 + (below_horizon * (view.height_error + FLOOR_ERROR / view.height)) ** 2
-        )
+        seen = (depth > 0.1) & (u >= 0) & (u < len(columns.reach)) & (v < view.camera.height)
+        cell, x, y = row[seen] * self.geometry.cols + col[seen], x[seen], y[seen]
+        column, v = u[seen].astype(np.intp), v[seen]
+        below = v - columns.horizon[column]
+        margin = v - columns.reach[column]
+        spread = view.height_error + FLOOR_ERROR / view.height
+        error = np.sqrt(EDGE_ERROR**2 + (below * spread) ** 2)
         free = margin > 0
-        sure = 1.0 - np.exp(-0.5 * (margin[free] / error[free]) ** 2)
-        self.free[row[free], col[free]] += sure
-        foot = ~free & columns.blocked[u]
-        self._add_foot(view, row[foot], col[foot], (v - margin - columns.horizon[u])[foot],
-            below_horizon[foot], error[foot])  # fmt: skip
+        self._add_free(cell[free], margin[free] / error[free], np.hypot(x[free], y[free]))
+        foot = ~free & columns.blocked[column]
+        self._add_blocked(view, cell[foot], (below - margin)[foot], below[foot], error[foot])
         return x[free], y[free]
 
-    def _add_foot(
-        self,
-        view: View,
-        row: NDArray,
-        col: NDArray,
-        foot: NDArray,
-        cell: NDArray,
-        error: NDArray,
+    def _add_free(self, cell: NDArray, margin: NDArray, distance: NDArray) -> None:
+        """`margin` in standard deviations, `distance` [m] of each cell."""
+        sure = 1.0 - np.exp(-0.5 * margin**2)
+        self.free.reshape(-1)[cell] += sure * _weight(distance)
+        self.looks.reshape(-1)[cell] += sure
+
+    def _add_blocked(
+        self, view: View, cell: NDArray, foot: NDArray, below: NDArray, error: NDArray
     ) -> None:
-        """Cells just behind an obstacle's foot; `foot` and `cell` are rows below the horizon."""
+        """Cells behind an obstacle; `foot` and `below` are its and their rows under the horizon."""
         scale = view.height * view.camera.focal  # [m px] range times rows below the horizon
         distance = scale / np.maximum(foot, 0.5)
-        behind = scale / np.maximum(cell, 0.1) - distance
-        near = behind < FOOT_DEPTH
-        depth_in_pixels = scale * FOOT_DEPTH / distance[near] ** 2
-        sure = 1.0 - np.exp(-0.5 * (depth_in_pixels / error[near]) ** 2)
-        self.blocked[row[near], col[near]] += sure
+        behind = scale / np.maximum(below, 0.1) - distance
+        body = behind < BODY_DEPTH
+        cell, distance, behind = cell[body], distance[body], np.maximum(behind[body], 0.01)
+        foot_rows = scale * FOOT_DEPTH / distance**2
+        sure = 1.0 - np.exp(-0.5 * (foot_rows / error[body]) ** 2)
+        guess = np.minimum(1.0, (FOOT_DEPTH / behind) ** 2)
+        self.blocked.reshape(-1)[cell] += sure * guess * _weight(distance)
+        self.looks.reshape(-1)[cell] += np.where(behind < FOOT_DEPTH, sure, 0.0)
 
     def _cells_ahead(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """Rows and columns inside the grid ahead of the rover, and their level-frame points [m]."""
@@ -86,3 +94,8 @@ class EvidenceGrid:
         # the camera's fan: 54.5 degrees either side, tan = 1.4, of a centre 0.43 m ahead
         ahead = (x > NEAR) & (np.abs(y) < 1.5 * x) & geometry.contains(row, col)
         return row[ahead], col[ahead], x[ahead], y[ahead]
+
+
+def _weight(distance: NDArray) -> NDArray:
+    """What a look from a distance [m] counts."""
+    return np.minimum(1.0, (FULL_WEIGHT_RANGE / distance) ** WEIGHT_POWER)

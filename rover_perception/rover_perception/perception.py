@@ -75,7 +75,7 @@ class Perception:
             nothing = PolarArray.empty()
             return Percept(frame.stamp, nothing, nothing, scan, self._rocks.believed())
         mask = rock_mask(frame.image)
-        sightings = detect_rocks(frame.image, mask, view, pose)
+        sightings = detect_rocks(mask, view, pose)
         columns = ground_columns(frame.image, mask if len(sightings.x) else None, view)
         x, y = self._evidence.add(view, columns, pose)
         if sightings.rocks:

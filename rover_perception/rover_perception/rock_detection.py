@@ -1,4 +1,4 @@
-"""Yellow blobs of one image, and where on the ground they stand."""
+"""Yellow blobs of one image, as rays towards the middle of a sample each."""
 
 from __future__ import annotations
 
@@ -9,39 +9,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
-from rover_perception.classes import yellowness
 from rover_perception.view import View
 
 MIN_PIXELS = 3
-# At a distance a blob is no taller than the blur of its colour: its middle is then known better
-# than its lower end. Samples are 0.09 to 0.17 m high.
-MIDDLE_HEIGHT = 0.065  # [m]
-# A sample may be buried in the wall's foot by some centimetres, and its height is not known: 0.02 m
-# of the 0.16 m from its middle up to the camera.
-HEIGHT_ERROR = 0.12  # of the distance
-MIDDLE_FROM = 3.0  # [m] where both are equally good
-ROCK_RADIUS = 0.08  # [m] half of 0.13 to 0.19: the centre lies this far behind the foremost point
-ROW_ERROR = 1.0  # [px] of a blob's lowest row
-COLUMN_ERROR = 1.0  # [px] of its middle
-BODY_ERROR = 0.05  # [m] the rock's shape
+# Samples are 0.09 to 0.17 m high and may be buried in the wall's foot by some centimetres. A blob's
+# lowest row would tell where it stands, but from 3 m on it is no taller than the blur of its colour
+# in the JPEG file, so its middle is followed instead.
+MIDDLE_HEIGHT = 0.065  # [m] above the ground
 MAX_RANGE = 12.0  # [m] beyond, a row of pixels is 6 m long
+PIXEL_ERROR = 0.7  # [px] of a blob's middle
+BODY_ERROR = 0.05  # [m] the sample's shape: its visible middle is not its centre
 
 
 @dataclass(frozen=True)
 class RockSighting:
-    """One blob, in the map frame."""
+    """One blob: the line of sight to its middle, in the map frame with the ground at z = 0."""
 
-    x: float  # [m]
-    y: float  # [m]
-    covariance: NDArray[np.floating]  # (2, 2) [m^2]
+    origin: NDArray[np.floating]  # (3,) [m] the camera
+    direction: NDArray[np.floating]  # (3,) unit vector
+    error: float  # [m] standard deviation across the line, at the sample
 
 
 @dataclass(frozen=True)
 class RockSightings:
-    """All blobs of one frame, and their cells around the rover."""
+    """All blobs of one frame, and their places around the rover."""
 
     rocks: tuple[RockSighting, ...]
-    x: NDArray[np.floating]  # (n,) [m] level frame, of every blob's ground point
+    x: NDArray[np.floating]  # (n,) [m] level frame, below the middle of every blob
     y: NDArray[np.floating]
 
     @classmethod
@@ -49,58 +43,30 @@ class RockSightings:
         return cls((), np.empty(0), np.empty(0))
 
 
-def detect_rocks(
-    image: NDArray[np.uint8], mask: NDArray[np.uint8], view: View, pose: Pose
-) -> RockSightings:
-    """Locate each blob of the mask by its lowest row, where it touches the ground."""
+def detect_rocks(mask: NDArray[np.uint8], view: View, pose: Pose) -> RockSightings:
+    """The blobs of the mask that are near and large enough to tell where they are."""
     if cv2.countNonZero(mask) < MIN_PIXELS:
         return RockSightings.none()
     _, _, stats, centroids = cv2.connectedComponentsWithStats(mask, connectivity=8)
     stats, centroids = stats[1:], centroids[1:]  # the first is the background
-    yellow = yellowness(image)
-    bottom = np.array([_lowest_row(yellow, box) for box in stats[:, :4]])  # a handful of blobs
-    u = centroids[:, 0] + 0.5
-    x, y = view.ground(u, bottom)
-    middle_x, middle_y = view.ground(u, centroids[:, 1] + 0.5, MIDDLE_HEIGHT)
-    distance = np.hypot(middle_x - view.position[0], middle_y - view.position[1])
-    far = distance > MIDDLE_FROM
-    x, y = np.where(far, middle_x, x), np.where(far, middle_y, y)
+    left, top, width, height, area = stats.T
+    x, y = view.ground(centroids[:, 0] + 0.5, centroids[:, 1] + 0.5, MIDDLE_HEIGHT)
     distance = np.hypot(x - view.position[0], y - view.position[1])
-    good = (stats[:, cv2.CC_STAT_AREA] >= MIN_PIXELS) & (distance < MAX_RANGE)
-    good &= (
-        bottom < mask.shape[0] - 1
-    )  # a blob cut off by the image's edge stands nobody knows where
+    good = (area >= MIN_PIXELS) & (distance < MAX_RANGE)
+    # a blob cut off by the image's edge is worth steering to, but its middle is elsewhere
+    whole = (left > 0) & (left + width < mask.shape[1]) & (top + height < mask.shape[0])
+    shown_x, shown_y = x[good], y[good]
+    good &= whole
     x, y, distance = x[good], y[good], distance[good]
-    stretch = 1.0 + np.where(far[good], 0.0, ROCK_RADIUS) / np.maximum(distance, 0.1)
-    x = view.position[0] + (x - view.position[0]) * stretch
-    y = view.position[1] + (y - view.position[1]) * stretch
-    rocks = tuple(
-        _sighting(float(px), float(py), float(d), view, pose)
-        for px, py, d in zip(x, y, distance, strict=True)  # a handful of blobs
-    )
-    return RockSightings(rocks, x, y)
-
-
-def _lowest_row(yellow: NDArray[np.uint8], box: NDArray[np.int32]) -> float:
-    """Where a blob ends below [px]: its colour, blurred by the JPEG file, falls to half there."""
-    left, top, width, height = box
-    rows = yellow[top : top + height + 3, left : left + width].max(axis=1).astype(float)
-    half = rows.max() / 2
-    last = int(np.nonzero(rows >= half)[0][-1])
-    if last + 1 == len(rows):
-        return float(top + last + 1)
-    return float(top + last + 0.5 + (rows[last] - half) / (rows[last] - rows[last + 1]))
-
-
-def _sighting(x: float, y: float, distance: float, view: View, pose: Pose) -> RockSighting:
-    """Range errors grow with the square of the distance, sideways ones with the distance."""
-    scale = view.height * view.camera.focal  # [m px]
-    row_error = ROW_ERROR * distance**2 / scale
-    along = np.hypot(row_error, distance * (HEIGHT_ERROR + view.height_error))
-    across = np.hypot(COLUMN_ERROR * distance / view.camera.focal, BODY_ERROR)
-    bearing = pose.yaw + np.arctan2(y - view.position[1], x - view.position[0])
-    c, s = np.cos(bearing), np.sin(bearing)
-    turn = np.array([[c, -s], [s, c]])
-    covariance = turn @ np.diag([along**2, across**2]) @ turn.T
     c, s = np.cos(pose.yaw), np.sin(pose.yaw)
-    return RockSighting(pose.x + c * x - s * y, pose.y + s * x + c * y, covariance)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    origin = turn @ view.position + (pose.x, pose.y, 0.0)
+    rays = np.stack([x, y, np.full_like(x, MIDDLE_HEIGHT)], axis=1) - view.position
+    directions = rays @ turn.T / np.linalg.norm(rays, axis=1, keepdims=True)
+    lift = view.height_error * view.height
+    errors = np.sqrt((PIXEL_ERROR * distance / view.camera.focal) ** 2 + BODY_ERROR**2 + lift**2)
+    rocks = tuple(
+        RockSighting(origin, direction, float(error))
+        for direction, error in zip(directions, errors, strict=True)  # a handful of blobs
+    )
+    return RockSightings(rocks, shown_x, shown_y)
