@@ -112,7 +112,7 @@ class SocketServer:
         # The default hub keeps an epoll object open beyond the end of its thread.
         eventlet.hubs.use_hub("poll")
         try:
-            listener = eventlet.listen((host, port))
+            listener = eventlet.listen((host, port), reuse_port=False)  # one bridge per port
         except OSError as error:
             self._started.append(error)
             ready.set()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 import subprocess
 import sys
 import threading
@@ -21,6 +22,7 @@ from telemetry import telemetry
 from rover_bridge.server import (
     Connected,
     Disconnected,
+    PortInUseError,
     ProtocolTrouble,
     ServerEvent,
     SocketServer,
@@ -209,3 +211,14 @@ def test_a_port_in_use_ends_the_node_with_one_sentence(server):
     assert ended.returncode == 1
     (line,) = ended.stderr.strip().splitlines()
     assert f"port {server.port} of 127.0.0.1 is in use" in line
+
+
+def test_two_servers_do_not_share_a_port(events):
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        port = probe.getsockname()[1]
+    first = SocketServer("127.0.0.1", port, events.put)
+    try:
+        with pytest.raises(PortInUseError, match=str(port)):
+            SocketServer("127.0.0.1", port, events.put)
+    finally:
+        first.close()
