@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Callable
 
@@ -27,6 +28,8 @@ EXPECTED = (
 
 def run_command(name: str, body: Callable[[], None]) -> int:
     """Run the body; the exit code is 0, 1 after an expected error, 130 after Ctrl-C."""
+    # A supervisor's SIGTERM ends the processes of the run as well, like Ctrl-C.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         body()
     except EXPECTED as error:

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -64,3 +65,29 @@ def test_an_unknown_command_is_told():
     done = rover("dance")
     assert done.returncode == 2
     assert "no command 'dance'" in done.stderr
+
+
+def test_a_run_that_is_ended_leaves_no_process(tmp_path):
+    drive = record_drive(tmp_path / "drive", seed=1, frames=60)
+    out = tmp_path / "result"
+    command = [sys.executable, "-m", "rover_bringup.cli", "replay", str(drive.folder)]
+    run = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True)
+    assert run.stderr is not None
+    assert run.stderr.readline().startswith("starting the graph")
+    children = node_processes(run.pid)
+    assert len(children) == 3
+    run.terminate()
+    _, errors = run.communicate(timeout=30)
+    assert run.returncode == 130
+    assert errors.endswith("rover replay: stopped\n")
+    assert not [pid for pid in children if alive(pid)]
+
+
+def node_processes(parent: int) -> list[int]:
+    """The processes that a process has started."""
+    return [int(pid) for task in Path(f"/proc/{parent}/task").iterdir()
+            for pid in (task / "children").read_text().split()]  # fmt: skip
+
+
+def alive(pid: int) -> bool:
+    return Path(f"/proc/{pid}").exists()
