@@ -16,18 +16,23 @@ from numpy.typing import NDArray
 
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
+from rover_common.grid import WORLD_SIZE
 from rover_simulator.profile import sand_at
 from rover_simulator.terrain import Terrain
 from rover_simulator.world import World
 
 SAND_LIT, SAND_SHADOW = np.array([238, 220, 205.0]), np.array([208, 189, 175.0])
 WALL_LIT, WALL_SHADOW = np.array([41, 28, 24.0]), np.array([19, 12, 9.0])
-SAMPLE_LIT, SAMPLE_SHADOW = np.array([190, 158, 20.0]), np.array([120, 100, 12.0])
-SKY_LOW, SKY_HIGH = np.array([157, 148, 143.0]), np.array([112, 104, 99.0])
+SAMPLE = np.array([170, 143, 15.0], np.float32)  # lit by itself, so that it is the same in shadow
+SKY_LOW = np.array([157, 148, 143.0], np.float32)
+SKY_HIGH = np.array([112, 104, 99.0], np.float32)
 SKY_LOW_AT, SKY_HIGH_AT = math.radians(13), math.radians(36)  # elevations of these colours
-FOG = np.array([139, 125, 114.0])
+FOG = np.array([139, 125, 114.0], np.float32)
 FOG_DENSITY = 0.005  # [1/m], exponential squared
 SUN = np.array([0.321, -0.557, 0.766])  # east, north, up: towards the sun
+PAINT = 8  # [1/m] colours of the ground
+GRAIN = 20  # [1/m] its texture
+SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
 TEXTURE = 6.0  # grey levels of the surfaces' texture
 JPEG_QUALITY = 75
 
@@ -41,58 +46,57 @@ class Rendering:
 
 
 class Renderer:
-    """Renders one world; geometry is built once."""
+    """Renders one world; geometry, shadows and colours of the ground are made once."""
 
     def __init__(self, world: World, terrain: Terrain) -> None:
-        self._terrain = terrain
         self._scene = rtcore_scene.EmbreeScene()
-        vertices, triangles = terrain.triangles()
-        self._ground = TriangleMesh(self._scene, vertices, triangles)
-        self._samples = [
-            TriangleMesh(self._scene, *_sample_mesh(float(x), float(y))) for x, y in world.samples
-        ]
-        self._rays = ROVER_CAMERA.rays().reshape(-1, 3)
-        noise = np.random.default_rng(7).normal(size=(512, 512))
-        texture = np.asarray(cv2.GaussianBlur(noise, (0, 0), 1.2))
-        self._texture = TEXTURE / texture.std() * texture
+        solids = [terrain.triangles()]
+        solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
+        self._meshes = [TriangleMesh(self._scene, *solid) for solid in solids]
+        self._colors = self._paint(terrain)
+        rays = ROVER_CAMERA.rays().reshape(-1, 3)
+        self._rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
+        self._grain = _grain()
 
     def render(self, pose: Pose) -> Rendering:
         """What the camera sees at a pose."""
         rotation = rotation_matrix(pose)
         origin = np.array([pose.x, pose.y, ORIGIN_HEIGHT])
         origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
-        rays = (self._rays @ rotation.T).astype(np.float32)
-        rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+        rays = self._rays @ rotation.T.astype(np.float32)
         hit = self._trace(np.broadcast_to(origin, rays.shape), rays)
-        colors = _sky(rays)
-        seen = hit["geomID"] >= 0
-        points = origin + rays[seen] * hit["tfar"][seen][:, None]
-        colors[seen] = self._surface(points, hit["geomID"][seen] > 0)
-        distance = hit["tfar"][seen]
-        fog = (1.0 - np.exp(-((FOG_DENSITY * distance) ** 2)))[:, None]
-        colors[seen] = (1 - fog) * colors[seen] + fog * FOG
+        geometry = hit["geomID"]
+        distance = np.where(geometry >= 0, hit["tfar"], 0.0).astype(np.float32)[:, None]
+        points = origin.astype(np.float32) + rays * distance
+        surface = self._surface(points, geometry > 0)
+        fog = 1.0 - np.exp(-((FOG_DENSITY * distance) ** 2))
+        colors = np.where(geometry[:, None] >= 0, surface + fog * (FOG - surface), _sky(rays))
         image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
-        samples = np.bincount(hit["geomID"][seen], minlength=1 + len(self._samples))[1:]
-        return Rendering(np.clip(image, 0, 255).astype(np.uint8), samples)
+        pixels = np.bincount(geometry[geometry >= 0], minlength=len(self._meshes))[1:]
+        return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels)
 
-    def _surface(self, points: NDArray, is_sample: NDArray[np.bool_]) -> NDArray:
+    def _surface(self, points: NDArray[np.float32], is_sample: NDArray[np.bool_]) -> NDArray:
         """Colours (n, 3) of points (n, 3) [m] on the ground or on samples."""
-        lit = self._lit(points)[:, None]
-        sand = sand_at(self._terrain.outside_at(points[:, 0], points[:, 1]))[:, None]
-        lit_color = sand * SAND_LIT + (1 - sand) * WALL_LIT
-        shadow_color = sand * SAND_SHADOW + (1 - sand) * WALL_SHADOW
-        colors = np.where(lit, lit_color, shadow_color)
-        at = np.floor(points * 20).astype(int)
-        grain = self._texture[(at[:, 1] + at[:, 2]) % 512, at[:, 0] % 512]
-        colors += grain[:, None]
-        sample_color = np.where(lit, SAMPLE_LIT, SAMPLE_SHADOW)
-        return np.where(is_sample[:, None], sample_color, colors)
+        shape = (ROVER_CAMERA.height, ROVER_CAMERA.width)  # remap takes no long columns
+        x, y = ((points[:, axis] * PAINT - 0.5).reshape(shape) for axis in (0, 1))
+        painted = cv2.remap(self._colors, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        fine = (points * GRAIN).astype(np.int32)
+        grain = self._grain[(fine[:, 1] + fine[:, 2]) % 512, fine[:, 0] % 512]
+        colors = painted.reshape(-1, 3) + grain[:, None]
+        colors[is_sample] = SAMPLE
+        return colors
 
-    def _lit(self, points: NDArray) -> NDArray[np.bool_]:
-        """Whether the sun reaches the points."""
-        start = points + 0.05 * SUN
-        hit = self._trace(start, np.broadcast_to(SUN, start.shape))
-        return np.asarray(hit["geomID"] < 0)
+    def _paint(self, terrain: Terrain) -> NDArray[np.float32]:
+        """Colours of the ground seen from above, (200 PAINT, 200 PAINT, 3), with its shadows."""
+        at = (np.arange(round(WORLD_SIZE * PAINT)) + 0.5) / PAINT
+        x, y = (axis.ravel() for axis in np.meshgrid(at, at))
+        start = np.stack([x, y, terrain.height_at(x, y) + SHADOW_BIAS], axis=1)
+        blocked = self._trace(start, np.broadcast_to(SUN, start.shape))["geomID"] >= 0
+        sand = sand_at(terrain.outside_at(x, y))[:, None]
+        lit = sand * SAND_LIT + (1 - sand) * WALL_LIT
+        shadow = sand * SAND_SHADOW + (1 - sand) * WALL_SHADOW
+        colors = np.where(blocked[:, None], shadow, lit)
+        return colors.reshape(len(at), len(at), 3).astype(np.float32)
 
     def _trace(self, origins: NDArray, directions: NDArray) -> dict[str, NDArray]:
         result: dict[str, NDArray] = self._scene.run(
@@ -101,6 +105,13 @@ class Renderer:
             output=1,
         )
         return result
+
+
+def _grain() -> NDArray[np.float32]:
+    """The surfaces' texture (512, 512) in grey levels."""
+    noise = np.random.default_rng(7).normal(size=(512, 512))
+    texture = np.asarray(cv2.GaussianBlur(noise, (0, 0), 1.2))
+    return (TEXTURE / texture.std() * texture).astype(np.float32)
 
 
 def encode_jpeg(image: NDArray[np.uint8]) -> bytes:

@@ -42,6 +42,11 @@ class Terrain:
         """Distance [m] outside of the flat floor at points [m]."""
         return _sample(self.outside, x, y)
 
+    def height_at(self, x: NDArray, y: NDArray) -> NDArray[np.float32]:
+        """Height [m] of the ground at points [m]."""
+        at = [np.asarray(y) / SPACING, np.asarray(x) / SPACING]
+        return ndimage.map_coordinates(self.heights, at, order=1, mode="nearest")
+
     def triangles(self) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
         """Vertices (n, 3) [m] and triangles (m, 3) of the height field."""
         at = (np.arange(COUNT) * SPACING).astype(np.float32)
