@@ -9,6 +9,8 @@ looks may outvote a near one.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,6 +29,9 @@ BODY_DEPTH = 4.0  # [m] of an obstacle that is guessed at, falling with the squa
 FULL_WEIGHT_RANGE = 2.0  # [m] up to here, every look counts the same
 WEIGHT_POWER = 4
 NEAR = 0.7  # [m] the camera sees no ground nearer than this
+# The camera's fan: 54.5 degrees to either side of a centre 0.43 m ahead; tan = 1.4.
+FAN = 1.5  # [m/m] aside per ahead
+HEADINGS = 32  # for each of them, the cells that may lie in the fan are listed once
 
 
 class EvidenceGrid:
@@ -37,26 +42,24 @@ class EvidenceGrid:
         self.free = np.zeros((geometry.rows, geometry.cols), np.float32)  # weighted looks
         self.blocked = np.zeros_like(self.free)  # weighted looks
         self.looks = np.zeros_like(self.free)  # sure looks of either kind, from any range
-        reach = int(np.ceil(max_range / geometry.resolution))
-        steps = np.arange(-reach, reach + 1, dtype=np.int32)
-        row, col = np.meshgrid(steps, steps, indexing="ij")
-        near = np.hypot(row, col) * geometry.resolution <= max_range
-        self._row, self._col = row[near], col[near]
+        self._ahead = _cells_by_heading(max_range, geometry.resolution)
 
     def add(self, view: View, columns: Columns, pose: Pose) -> tuple[NDArray, NDArray]:
         """Add one frame; returns the level-frame points (x, y) [m] of the cells it saw free."""
         row, col, x, y = self._cells_ahead(pose)
         u, v, depth = view.pixels(x, y)
-        seen = (depth > 0.1) & (u >= 0) & (u < len(columns.reach)) & (v < view.camera.height)
+        in_image = (u >= 0) & (u < len(columns.reach)) & (v < view.camera.height)
+        seen = np.flatnonzero((depth > 0.1) & in_image)
         cell, x, y = row[seen] * self.geometry.cols + col[seen], x[seen], y[seen]
         column, v = u[seen].astype(np.intp), v[seen]
-        below = v - columns.horizon[column]
-        margin = v - columns.reach[column]
+        below = v - columns.horizon.astype(np.float32)[column]
+        margin = v - columns.reach.astype(np.float32)[column]
         spread = view.height_error + FLOOR_ERROR / view.height
         error = np.sqrt(EDGE_ERROR**2 + (below * spread) ** 2)
-        free = margin > 0
+        is_free = margin > 0
+        free = np.flatnonzero(is_free)
         self._add_free(cell[free], margin[free] / error[free], np.hypot(x[free], y[free]))
-        foot = ~free & columns.blocked[column]
+        foot = np.flatnonzero(~is_free & columns.blocked[column])
         self._add_blocked(view, cell[foot], (below - margin)[foot], below[foot], error[foot])
         return x[free], y[free]
 
@@ -84,16 +87,36 @@ class EvidenceGrid:
     def _cells_ahead(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """Rows and columns inside the grid ahead of the rover, and their level-frame points [m]."""
         geometry = self.geometry
+        row, col, north, east = self._ahead[round(pose.yaw / (2.0 * np.pi) * HEADINGS) % HEADINGS]
         row0, col0 = geometry.cell_of(pose.x, pose.y)
         center_x, center_y = geometry.center_of(row0, col0)
-        c, s = np.cos(pose.yaw), np.sin(pose.yaw)
-        dx = self._col * geometry.resolution + (center_x - pose.x)
-        dy = self._row * geometry.resolution + (center_y - pose.y)
+        c, s = math.cos(pose.yaw), math.sin(pose.yaw)
+        dx, dy = east + np.float32(center_x - pose.x), north + np.float32(center_y - pose.y)
         x, y = c * dx + s * dy, c * dy - s * dx
-        row, col = self._row + row0, self._col + col0
-        # the camera's fan: 54.5 degrees either side, tan = 1.4, of a centre 0.43 m ahead
-        ahead = (x > NEAR) & (np.abs(y) < 1.5 * x) & geometry.contains(row, col)
+        row, col = row + row0, col + col0
+        ahead = np.flatnonzero((x > NEAR) & (np.abs(y) < FAN * x) & geometry.contains(row, col))
         return row[ahead], col[ahead], x[ahead], y[ahead]
+
+
+def _cells_by_heading(max_range: float, resolution: float) -> list[tuple[NDArray, ...]]:
+    """The cells in range for each heading: steps in rows and columns, the same [m] as float32."""
+    reach = int(np.ceil(max_range / resolution))
+    steps = np.arange(-reach, reach + 1, dtype=np.int32)
+    grid_row, grid_col = np.meshgrid(steps, steps, indexing="ij")
+    near = np.hypot(grid_row, grid_col) * resolution <= max_range
+    row, col = grid_row[near], grid_col[near]
+    distance = np.hypot(row, col) * resolution
+    # off by half a heading, and by the rover's place in its cell
+    spare = math.pi / HEADINGS + np.arcsin(np.minimum(1.0, resolution / np.maximum(distance, 1e-9)))
+    headings = np.arange(HEADINGS) * 2.0 * math.pi / HEADINGS
+    lists = []
+    for heading in headings:
+        aside = np.abs(np.angle(np.exp(1j * (np.arctan2(row, col) - heading))))
+        inside = (aside < math.atan(FAN) + spare) & (distance > NEAR - resolution)
+        cells = row[inside], col[inside]
+        metres = ((step * resolution).astype(np.float32) for step in cells)
+        lists.append((*cells, *metres))
+    return lists
 
 
 def _weight(distance: NDArray) -> NDArray:

@@ -21,17 +21,23 @@ def occupancy_of(evidence: EvidenceGrid, resolution: float) -> GridMap:
     Inside a class, the value is the share [%] of the cell that is not free.
     """
     geometry = evidence.geometry
-    count = round(resolution / geometry.resolution)
-    seen = evidence.looks >= ENOUGH
-    free = seen & (evidence.free > evidence.blocked)
-    free_share = _share(free, count)
-    blocked_share = _share(seen & ~free, count)
+    free_share, blocked_share = shares_of(evidence, resolution)
     cells = np.full(free_share.shape, -1, np.int8)
     blocked = blocked_share > 1.0 - FREE_SHARE
     cells[blocked] = np.round(50 + 50 * blocked_share[blocked]).astype(np.int8)
     navigable = free_share >= FREE_SHARE
     cells[navigable] = np.round(100 * (1.0 - free_share[navigable])).astype(np.int8)
     return GridMap(resolution, geometry.origin_x, geometry.origin_y, cells)
+
+
+def shares_of(
+    evidence: EvidenceGrid, resolution: float
+) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+    """Shares (rows, cols) of each cell of a resolution [m] that are free, and that are blocked."""
+    count = round(resolution / evidence.geometry.resolution)
+    seen = evidence.looks >= ENOUGH
+    free = seen & (evidence.free > evidence.blocked)
+    return _share(free, count), _share(seen & ~free, count)
 
 
 def _share(mask: NDArray[np.bool_], count: int) -> NDArray[np.floating]:

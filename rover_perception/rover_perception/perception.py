@@ -89,6 +89,11 @@ class Perception:
             rocks=self._rocks.believed(),
         )
 
+    @property
+    def evidence(self) -> EvidenceGrid:
+        """What the maps are made of."""
+        return self._evidence
+
     def world_map(self) -> GridMap:
         """The map as it is published."""
         return occupancy_of(self._evidence, self._config.map_resolution)

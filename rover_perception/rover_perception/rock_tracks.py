@@ -74,6 +74,7 @@ class RockTracks:
     def __init__(self) -> None:
         self._tracks: list[_Track] = []
         self._next_id = 1
+        self._believed: tuple[Rock, ...] = ()
 
     def add(self, sightings: tuple[RockSighting, ...], stamp: int) -> None:
         """Add the sightings of one frame, taken at `stamp` [ns]."""
@@ -87,9 +88,11 @@ class RockTracks:
                 match.join(seen)
                 self._merge(match)
 
+        self._believed = tuple(_rock(track) for track in self._tracks if _is_believed(track))
+
     def believed(self) -> tuple[Rock, ...]:
         """The rocks that enough frames agree on."""
-        return tuple(_rock(track) for track in self._tracks if _is_believed(track))
+        return self._believed
 
     def _nearest(self, seen: _Track) -> _Track | None:
         near = [track for track in self._tracks if track.near(seen)]

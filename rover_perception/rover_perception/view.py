@@ -80,9 +80,9 @@ class View:
         nothing.
         """
         dx, dy, dz = x - self.position[0], y - self.position[1], -self.height
-        t = self.tilt
-        depth = t[0, 0] * dx + t[1, 0] * dy + t[2, 0] * dz
-        left = t[0, 1] * dx + t[1, 1] * dy + t[2, 1] * dz
-        up = t[0, 2] * dx + t[1, 2] * dy + t[2, 2] * dz
+        t = self.tilt.tolist()  # plain floats, which leave the arrays' precision as it is
+        depth = t[0][0] * dx + t[1][0] * dy + t[2][0] * dz
+        left = t[0][1] * dx + t[1][1] * dy + t[2][1] * dz
+        up = t[0][2] * dx + t[1][2] * dy + t[2][2] * dz
         scale = self.camera.focal / np.maximum(depth, 0.01)
         return self.camera.center_u - left * scale, self.camera.center_v - up * scale, depth
