@@ -58,10 +58,10 @@ class Renderer:
         self._rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
         self._grain = _grain()
 
-    def render(self, pose: Pose) -> Rendering:
-        """What the camera sees at a pose."""
+    def render(self, pose: Pose, ground: float = 0.0) -> Rendering:
+        """What the camera sees at a pose on ground of this height [m]."""
         rotation = rotation_matrix(pose)
-        origin = np.array([pose.x, pose.y, ORIGIN_HEIGHT])
+        origin = np.array([pose.x, pose.y, ground + ORIGIN_HEIGHT])
         origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
         rays = self._rays @ rotation.T.astype(np.float32)
         hit = self._trace(np.broadcast_to(origin, rays.shape), rays)

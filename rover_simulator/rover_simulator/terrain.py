@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_simulator.profile import MAP_MARGIN, height_at
+from rover_simulator.vehicle import Slope
 
 SPACING = 0.390625  # [m] between heights, 513 of them over 200 m, as in the original
 COUNT = 513
@@ -46,6 +47,14 @@ class Terrain:
         """Height [m] of the ground at points [m]."""
         at = [np.asarray(y) / SPACING, np.asarray(x) / SPACING]
         return ndimage.map_coordinates(self.heights, at, order=1, mode="nearest")
+
+    def slope_at(self, x: float, y: float) -> Slope:
+        """Rise of the ground at a point [m], over half a metre as the wheels feel it."""
+        reach = 0.25
+        east, west, north, south = self.height_at(
+            np.array([x + reach, x - reach, x, x]), np.array([y, y, y + reach, y - reach])
+        )
+        return Slope(float(east - west) / (2 * reach), float(north - south) / (2 * reach))
 
     def triangles(self) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
         """Vertices (n, 3) [m] and triangles (m, 3) of the height field."""

@@ -1,0 +1,138 @@
+"""The world, the rover and its camera together: commands in, telemetry out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from rover_common.geometry import Pose
+from rover_common.vehicle import MAX_STEERING
+from rover_simulator.arm import Arm
+from rover_simulator.renderer import Renderer, encode_jpeg
+from rover_simulator.telemetry_format import format_telemetry
+from rover_simulator.terrain import Terrain
+from rover_simulator.vehicle import STEP, Controls, Vehicle
+from rover_simulator.world import World
+
+START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
+CONTACT_HEIGHT = 0.1  # [m] of ground under the rover that counts as touching a wall
+
+
+class Simulation:
+    """Advances frame by frame; the same world and commands give the same telemetry."""
+
+    def __init__(self, world: World, terrain_seed: int, frame_steps: int) -> None:
+        """frame_steps: physics steps of 0.02 s in one rendered frame."""
+        self._terrain = Terrain.of(world.navigable, terrain_seed)
+        self._renderer = Renderer(world, self._terrain)
+        self._vehicle = Vehicle(world.start)
+        self._arm = Arm([(float(x), float(y)) for x, y in world.samples])
+        self._controls = Controls()
+        self._frame_steps = frame_steps
+        self.time = START_TIME
+        self.contacts = 0
+        self.distance = 0.0  # [m] driven
+        self._touching = False
+        self._image = b""
+        self._next_image = self._photograph()
+
+    @property
+    def pose(self) -> Pose:
+        return self._vehicle.pose
+
+    @property
+    def samples_left(self) -> int:
+        return len(self._arm.samples)
+
+    def advance(self) -> None:
+        """One rendered frame: its physics, then its picture."""
+        for _ in range(self._frame_steps):
+            self._step()
+        self._arm.advance(self._frame_steps * STEP)
+        self.time += self._frame_steps * STEP
+        self._image = self._next_image
+        self._next_image = self._photograph()
+
+    def telemetry(self) -> dict[str, str]:
+        """Of this frame, with the picture of the one before."""
+        vehicle, controls = self._vehicle, self._controls
+        return format_telemetry(
+            pose=vehicle.pose,
+            speed=0.0 if self._arm.picking_up else vehicle.reported_speed,
+            throttle=controls.throttle,
+            brake=controls.brake,
+            steering_angle=controls.steering,
+            near_sample=self._arm.near_sample(vehicle.pose),
+            picking_up=self._arm.picking_up,
+            sample_count=len(self._arm.samples),
+            samples=self._arm.samples,
+            image=self._image or self._next_image,
+            sim_time=self.time,
+        )
+
+    def handle(self, event: str, data: Mapping[str, Any]) -> bool:
+        """Take an event of the server; whether it is answered with a telemetry.
+
+        Values that cannot be parsed lose their answer, as in the original; those before them are
+        applied.
+        """
+        if event == "manual":
+            return True
+        if event == "pickup":
+            if not self._arm.picking_up:
+                self._vehicle.halt()
+                self._arm.start(self._vehicle.pose)
+            return True
+        if event != "data":
+            return False
+        try:
+            self._drive(data)
+        except (KeyError, TypeError, ValueError):
+            return False
+        return True
+
+    def _drive(self, data: Mapping[str, Any]) -> None:
+        """In the order steering, throttle, brake; ignored while the arm works."""
+        held = self._controls
+        steering = math.radians(_number(data["steering_angle"]))
+        steering = max(-MAX_STEERING, min(MAX_STEERING, steering))
+        self._hold(Controls(steering, held.throttle, held.brake))
+        throttle = _number(data["throttle"])
+        self._hold(Controls(steering, throttle, held.brake))
+        self._hold(Controls(steering, throttle, _number(data.get("brake", "0"))))
+
+    def _hold(self, controls: Controls) -> None:
+        if not self._arm.picking_up:
+            self._controls = controls
+
+    def _step(self) -> None:
+        if self._arm.picking_up:
+            return
+        before = self._vehicle.pose
+        self._vehicle.step(self._controls, self._terrain.slope_at(before.x, before.y))
+        after = self._vehicle.pose
+        self.distance += math.hypot(after.x - before.x, after.y - before.y)
+        touching = self._ground_height() > CONTACT_HEIGHT
+        self.contacts += touching and not self._touching
+        self._touching = touching
+
+    def _ground_height(self) -> float:
+        pose = self._vehicle.pose
+        return float(self._terrain.height_at(np.array([pose.x]), np.array([pose.y]))[0])
+
+    def _photograph(self) -> bytes:
+        rendering = self._renderer.render(self._vehicle.pose, self._ground_height())
+        return encode_jpeg(rendering.image)
+
+
+def _number(text: Any) -> float:
+    """A finite number from a string; numbers that are not strings are refused."""
+    if not isinstance(text, str):
+        raise TypeError(text)
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(text)
+    return value

@@ -1,0 +1,164 @@
+"""The rover's body: the measured planar model at 50 Hz, with the tilt that goes with it.
+
+Sources: the simulator's constants for masses, torques and limits; recordings for the rest.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rover_common.geometry import Pose, wrap_angle
+from rover_common.vehicle import (
+    MAX_REVERSE_SPEED,
+    MAX_SPEED,
+    MAX_STEERING,
+    TURN_IN_PLACE_BELOW,
+    TURN_IN_PLACE_RATE,
+    WHEELBASE,
+)
+
+STEP = 0.02  # [s]
+GRAVITY = 9.81  # [m/s^2]
+DRIVE = 0.852  # [m/s^2] per unit of throttle: 4 wheels x 25 N m / 0.1485 m over 790 kg
+COAST = 0.0574  # [1/s] wheel damping
+# Brake input and the deceleration [m/s^2] that it gives; the wheels lock beyond 3.
+BRAKE_INPUT = (0.0, 0.83, 1.0, 2.0, 5.0)
+BRAKE_DECELERATION = (0.0, 2.5, 2.5, 4.2, 7.0)
+YAW_FACTOR = 0.95  # of the kinematic yaw rate
+CORNERING = 0.012  # [s] deceleration per yaw rate and speed
+AXLE_BEHIND = 0.336  # [m] rear axle behind the origin
+SLIP_FREE_SPEED = 3.7  # [m/s] where the course no longer differs from the yaw
+# The body rocks: period 1.9 s, damping ratio 0.085, within the suspension's stops.
+ROCKING = 2 * math.pi / 1.9  # [rad/s]
+DAMPING = 0.085
+PITCH_STOP, ROLL_STOP = math.radians(1.31), math.radians(1.19)
+PITCH_PER_ACCELERATION = math.radians(2.5)  # [rad s^2/m]
+ROLL_PER_ACCELERATION = math.radians(3.5)  # [rad s^2/m]
+SIDE_SLIP = 0.3  # [s] sideways speed per sideways component of gravity beyond what tyres hold
+SIDE_HOLD = 0.6  # sideways slope that the tyres hold
+STANDING = 0.01  # [m/s] slower is reported as zero
+
+
+@dataclass(frozen=True)
+class Controls:
+    """What the simulator holds of the last command."""
+
+    steering: float = 0.0  # [rad] left positive
+    throttle: float = 0.0  # not clamped
+    brake: float = 0.0  # not clamped
+
+
+@dataclass(frozen=True)
+class Slope:
+    """The ground under the rover."""
+
+    dx: float = 0.0  # rise of the ground per metre to the east
+    dy: float = 0.0  # and to the north
+
+
+class Vehicle:
+    """State of the body; `step` moves it by one physics step."""
+
+    def __init__(self, start: Pose) -> None:
+        self.pose = start
+        self.speed = 0.0  # [m/s] along the body, forward positive
+        self._turning = False  # on the spot
+        self._pitch_rate = 0.0
+        self._roll_rate = 0.0
+
+    @property
+    def reported_speed(self) -> float:
+        return 0.0 if abs(self.speed) < STANDING else self.speed
+
+    def halt(self) -> None:
+        """Freeze the body, as the arm's sequence does."""
+        self.speed = 0.0
+        self._turning = False
+
+    def step(self, controls: Controls, slope: Slope) -> None:
+        """One step of 0.02 s."""
+        motor = controls.throttle != 0.0 or controls.brake != 0.0
+        slow = abs(self.speed) < TURN_IN_PLACE_BELOW
+        self._turning = not motor and controls.steering != 0.0 and (self._turning or slow)
+        before = self.speed
+        if self._turning:
+            self.speed = 0.0
+            self._move(0.0, TURN_IN_PLACE_RATE * controls.steering, 0.0, slope)
+            self._tilt(0.0, 0.0, slope)
+            return
+        wheel = self._wheel_angle(controls)
+        rate = YAW_FACTOR * self.speed * math.tan(wheel) / WHEELBASE
+        self._accelerate(controls, rate, slope)
+        slip = 0.8 * math.atan(AXLE_BEHIND * math.tan(wheel) / WHEELBASE)
+        slip *= min(1.0, max(0.0, (SLIP_FREE_SPEED - abs(self.speed)) / (SLIP_FREE_SPEED - 2.0)))
+        self._move(self.speed, rate, slip, slope)
+        drive = DRIVE * controls.throttle if self.speed < MAX_SPEED - 0.01 else DRIVE
+        braking = (before - self.speed) / STEP if controls.brake else 0.0
+        self._tilt(drive * bool(controls.throttle) - braking, self.speed * rate, slope)
+
+    def _wheel_angle(self, controls: Controls) -> float:
+        """Front wheels [rad]: 15 degrees at rest, 5 at 5 m/s, doubled in reverse."""
+        limit = math.radians(5.0 + 10.0 * max(0.0, 1.0 - abs(self.speed) / MAX_SPEED))
+        double = 2.0 if controls.throttle < 0 else 1.0
+        return double * limit * controls.steering / MAX_STEERING
+
+    def _accelerate(self, controls: Controls, rate: float, slope: Slope) -> None:
+        along, _ = self._slope_in_body(slope)
+        push = DRIVE * controls.throttle - COAST * self.speed - GRAVITY * along
+        self.speed += push * STEP
+        brake = _interpolate(abs(controls.brake), BRAKE_INPUT, BRAKE_DECELERATION)
+        loss = (brake + CORNERING * abs(rate) * abs(self.speed)) * STEP
+        self.speed = math.copysign(max(0.0, abs(self.speed) - loss), self.speed)
+        limit = MAX_REVERSE_SPEED if controls.throttle < 0 else MAX_SPEED
+        self.speed = max(-limit, min(limit, self.speed))
+
+    def _move(self, speed: float, rate: float, slip: float, slope: Slope) -> None:
+        pose = self.pose
+        yaw = wrap_angle(pose.yaw + rate * STEP)
+        course = yaw + slip
+        _, aside = self._slope_in_body(slope)
+        excess = math.copysign(max(0.0, abs(aside) - SIDE_HOLD), aside)
+        slide = -SIDE_SLIP * GRAVITY * excess
+        x = pose.x + (speed * math.cos(course) - slide * math.sin(yaw)) * STEP
+        y = pose.y + (speed * math.sin(course) + slide * math.cos(yaw)) * STEP
+        self.pose = Pose(x, y, yaw, pose.pitch, pose.roll)
+
+    def _tilt(self, forward: float, leftward: float, slope: Slope) -> None:
+        """Rock towards the tilt of the ground and of the forces [m/s^2].
+
+        The centre of mass lies below the ground: throttle lowers the nose, turns lean inward.
+        """
+        along, aside = self._slope_in_body(slope)
+        pitch = _clamp(PITCH_PER_ACCELERATION * forward, PITCH_STOP) - math.atan(along)
+        roll = -_clamp(ROLL_PER_ACCELERATION * leftward, ROLL_STOP) + math.atan(aside)
+        pose = self.pose
+        self._pitch_rate += _rocking(pitch - pose.pitch, self._pitch_rate) * STEP
+        self._roll_rate += _rocking(roll - pose.roll, self._roll_rate) * STEP
+        self.pose = Pose(
+            pose.x,
+            pose.y,
+            pose.yaw,
+            pose.pitch + self._pitch_rate * STEP,
+            pose.roll + self._roll_rate * STEP,
+        )
+
+    def _slope_in_body(self, slope: Slope) -> tuple[float, float]:
+        """Rise per metre forward, and to the left."""
+        c, s = math.cos(self.pose.yaw), math.sin(self.pose.yaw)
+        return c * slope.dx + s * slope.dy, c * slope.dy - s * slope.dx
+
+
+def _rocking(offset: float, rate: float) -> float:
+    return ROCKING**2 * offset - 2 * DAMPING * ROCKING * rate
+
+
+def _clamp(value: float, limit: float) -> float:
+    return max(-limit, min(limit, value))
+
+
+def _interpolate(x: float, xs: tuple[float, ...], ys: tuple[float, ...]) -> float:
+    for x0, x1, y0, y1 in zip(xs, xs[1:], ys, ys[1:], strict=False):
+        if x <= x1:
+            return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    return ys[-1]
