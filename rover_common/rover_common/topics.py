@@ -5,6 +5,7 @@ CAMERA_INFO = "camera/camera_info"  # sensor_msgs/CameraInfo
 ODOMETRY = "odom"  # nav_msgs/Odometry
 STATUS = "rover_status"  # rover_interfaces/RoverStatus
 WORLDMAP = "worldmap"  # nav_msgs/OccupancyGrid, latched
+DRIVING_MAP = "driving_map"  # nav_msgs/OccupancyGrid, latched, of finer cells
 NAV_POLAR = "nav_polar"  # rover_interfaces/PolarArray
 ROCK_POLAR = "rock_polar"  # rover_interfaces/PolarArray
 FREE_SCAN = "free_scan"  # sensor_msgs/LaserScan

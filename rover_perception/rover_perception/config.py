@@ -13,7 +13,10 @@ class PerceptionConfig:
         1.0, "[m] cell of the published world map", minimum=0.25, maximum=5.0
     )
     evidence_resolution: float = parameter(
-        0.25, "[m] cell in which evidence is kept; divides the map's", minimum=0.05, maximum=1.0
+        0.25,
+        "[m] cell of the driving map and of the evidence; divides the map's",
+        minimum=0.05,
+        maximum=1.0,
     )
     max_range: float = parameter(
         16.0,

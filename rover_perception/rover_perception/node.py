@@ -1,8 +1,8 @@
 """The perception node: images and poses to a world map, polar arrays and rocks.
 
 Subscribes camera/image_raw and odom (joined by stamp). Publishes nav_polar, rock_polar and
-free_scan for every frame; rocks and worldmap (latched); vision_image (while subscribed);
-/diagnostics. Parameters: see PerceptionConfig.
+free_scan for every frame; rocks and worldmap (latched); driving_map and vision_image, both only
+while subscribed; /diagnostics. Parameters: see PerceptionConfig.
 """
 
 from __future__ import annotations
@@ -42,6 +42,7 @@ class PerceptionNode(Node):
         self._join = StampJoin((topics.IMAGE, topics.ODOMETRY))
         self._stamp: int | None = None
         self._map_stamp: int | None = None
+        self._driving_map_stamp: int | None = None
         self._vision_stamp: int | None = None
         self._rocks: tuple[Rock, ...] = ()
         self._frames_at_last_look = 0
@@ -57,6 +58,7 @@ class PerceptionNode(Node):
         self._scan = publish(LaserScan, topics.FREE_SCAN, qos.FRAME)
         self._rock_list = publish(RockDetectionArray, topics.ROCKS, qos.LATCHED)
         self._map = publish(OccupancyGrid, topics.WORLDMAP, qos.LATCHED)
+        self._driving_map = publish(OccupancyGrid, topics.DRIVING_MAP, qos.LATCHED)
         self._vision = publish(Image, topics.VISION_IMAGE, qos.VIEW)
         image = self.create_subscription(Image, topics.IMAGE, self._on_image, qos.FRAME)
         odometry = self.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
@@ -118,6 +120,14 @@ class PerceptionNode(Node):
     def _publish_map(self, stamp: int) -> None:
         self._map_stamp = stamp
         self._map.publish(conversions.grid_message_of(stamp, self._core.world_map()))
+        self._publish_driving_map(stamp)
+
+    def _publish_driving_map(self, stamp: int) -> None:
+        """Only while somebody listens: it has sixteen times the cells of the world map."""
+        if self._driving_map.get_subscription_count() and self._driving_map_stamp != stamp:
+            self._driving_map_stamp = stamp
+            grid = conversions.grid_message_of(stamp, self._core.driving_map())
+            self._driving_map.publish(grid)
 
     def _publish_vision(self, stamp: int) -> None:
         if self._core.last is None:
@@ -127,12 +137,15 @@ class PerceptionNode(Node):
         self._vision.publish(conversions.image_message_of(stamp, frames.CAMERA_OPTICAL, picture))
 
     def _on_pause_look(self) -> None:
-        """When frames have stopped coming, publish the map with the last of them."""
+        """When frames have stopped coming, publish the maps with the last of them."""
         frame_count = self._diagnostics.counts["frames"]
         paused = frame_count == self._frames_at_last_look
         self._frames_at_last_look = frame_count
-        if paused and self._stamp is not None and self._map_stamp != self._stamp:
+        if not paused or self._stamp is None:
+            return
+        if self._map_stamp != self._stamp:
             self._publish_map(self._stamp)
+        self._publish_driving_map(self._stamp)
 
 
 def _due(last: int | None, now: int, period: float) -> bool:

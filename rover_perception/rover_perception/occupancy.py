@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,5 +44,5 @@ def shares_of(
 def _share(mask: NDArray[np.bool_], count: int) -> NDArray[np.floating]:
     """Share of true cells in each block of count x count."""
     rows, cols = mask.shape[0] // count, mask.shape[1] // count
-    blocks = mask[: rows * count, : cols * count].reshape(rows, count, cols, count)
-    return blocks.mean(axis=(1, 3))
+    whole = mask[: rows * count, : cols * count].astype(np.float32)
+    return np.asarray(cv2.resize(whole, (cols, rows), interpolation=cv2.INTER_AREA))

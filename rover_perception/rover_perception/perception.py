@@ -98,6 +98,10 @@ class Perception:
         """The map as it is published."""
         return occupancy_of(self._evidence, self._config.map_resolution)
 
+    def driving_map(self) -> GridMap:
+        """The same at the resolution of the evidence."""
+        return occupancy_of(self._evidence, self._config.evidence_resolution)
+
     def _restart_on_new_run(self, frame: CameraFrame) -> None:
         fell_back = self._stamp is not None and frame.stamp < self._stamp - RESTART_SECONDS * 1e9
         jumped = bool(self._poses) and (

@@ -9,6 +9,7 @@ from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
 
 SAND = (241, 225, 211)
+SHADOWED_SAND = (208, 189, 175)
 WALL = (36, 25, 21)
 SKY = (126, 117, 113)
 YELLOW = (180, 150, 20)

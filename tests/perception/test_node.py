@@ -80,6 +80,19 @@ def test_a_late_subscriber_gets_the_map_and_the_last_frame_is_in_it(ros, bench):
     assert (cells[99:101, 92:94] < 50).all()
 
 
+def test_the_driving_map_is_the_same_map_in_finer_cells(ros, bench):
+    grids = bench.listen(OccupancyGrid, topics.DRIVING_MAP, qos.LATCHED)
+    for index in range(5):
+        bench.send(1_000_000_000 + index * 40_000_000)
+    last = 1_000_000_000 + 4 * 40_000_000
+    assert ros.spin_until(lambda: grids and conversions.stamp_of(grids[-1].header.stamp) == last)
+    grid = grids[-1]
+    assert (grid.info.width, grid.info.height, grid.info.resolution) == (800, 800, 0.25)
+    cells = np.array(grid.data).reshape(800, 800)
+    assert (cells[396:404, 366:374] == 0).all()
+    assert (cells[:376] != 0).all()  # beyond the wall
+
+
 def test_bad_frames_are_dropped_and_counted(ros, bench):
     bench.send(1_000_000_000, encoding="bgr8")
     bench.send(1_040_000_000, pose=Pose(float("nan"), 0.0, 0.0))

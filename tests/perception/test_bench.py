@@ -1,0 +1,52 @@
+"""The benchmark of perception and the recipe it compares with."""
+
+import json
+from functools import partial
+
+import numpy as np
+from scene import draw
+
+from rover_bringup import bench_perception
+from rover_bringup.reference_recipe import ReferenceRecipe
+from rover_common.geometry import Pose
+from rover_simulator import recorder
+
+POSE = Pose(90.0, 100.5, 0.0)
+
+
+def strip(x, y):
+    return (y > 98) & (y < 103)
+
+
+def test_the_recipe_maps_what_is_before_a_level_rover():
+    recipe = ReferenceRecipe()
+    ranges, bearings = recipe.process(draw(POSE, strip), POSE)
+    assert len(ranges) == len(bearings) > 100
+    rows, cols = np.nonzero(recipe.navigable())
+    assert {92, 93} <= set(cols.tolist())
+    assert rows.min() >= 97
+    assert rows.max() <= 103
+    assert (cols >= 90).all()
+    assert (cols <= 95).all()
+
+
+def test_the_recipe_maps_nothing_when_tilted():
+    recipe = ReferenceRecipe()
+    tilted = Pose(90.0, 100.5, 0.0, pitch=0.02)
+    recipe.process(draw(tilted, strip), tilted)
+    assert not recipe.navigable().any()
+
+
+def test_the_benchmark_has_times_and_scores_of_both(tmp_path, monkeypatch, capsys):
+    whole_drive = recorder.record_drive
+    monkeypatch.setattr(recorder, "record_drive", partial(whole_drive, frames=25))
+    monkeypatch.setattr(bench_perception, "SEEDS", (1,))
+    assert bench_perception.main(["--generated", "--json", "--out", str(tmp_path)]) == 0
+    result = json.loads(capsys.readouterr().out.splitlines()[0])
+    assert 0 < result["core_ms_p50"] <= result["core_ms_p99"]
+    assert result["reference_ms_p50"] > 0
+    (course,) = result["courses"]
+    assert course["frames"] == 25
+    assert course["percent_mapped"] > course["reference_percent_mapped"]
+    assert course["fidelity"] > 80
+    assert (tmp_path / "curves.png").stat().st_size > 1000
