@@ -40,7 +40,7 @@ class Arm:
         """Time goes on; the sample leaves the lists one frame before the sequence ends."""
         if self._left <= 0.0:
             return
-        self._left -= seconds
+        self._left = round(self._left - seconds, 6)  # so that whole frames add up
         if self._left <= seconds and self._target is not None:
             self.samples.remove(self._target)
             self._target = None

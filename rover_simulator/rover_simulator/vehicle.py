@@ -25,7 +25,7 @@ COAST = 0.0574  # [1/s] wheel damping
 # Brake input and the deceleration [m/s^2] that it gives; the wheels lock beyond 3.
 BRAKE_INPUT = (0.0, 0.83, 1.0, 2.0, 5.0)
 BRAKE_DECELERATION = (0.0, 2.5, 2.5, 4.2, 7.0)
-YAW_FACTOR = 0.95  # of the kinematic yaw rate
+YAW_COASTING, YAW_DRIVEN = 0.92, 0.96  # of the kinematic yaw rate
 CORNERING = 0.012  # [s] deceleration per yaw rate and speed
 AXLE_BEHIND = 0.336  # [m] rear axle behind the origin
 SLIP_FREE_SPEED = 3.7  # [m/s] where the course no longer differs from the yaw
@@ -88,7 +88,8 @@ class Vehicle:
             self._tilt(0.0, 0.0, slope)
             return
         wheel = self._wheel_angle(controls)
-        rate = YAW_FACTOR * self.speed * math.tan(wheel) / WHEELBASE
+        factor = YAW_DRIVEN if controls.throttle else YAW_COASTING
+        rate = factor * self.speed * math.tan(wheel) / WHEELBASE
         self._accelerate(controls, rate, slope)
         slip = 0.8 * math.atan(AXLE_BEHIND * math.tan(wheel) / WHEELBASE)
         slip *= min(1.0, max(0.0, (SLIP_FREE_SPEED - abs(self.speed)) / (SLIP_FREE_SPEED - 2.0)))
