@@ -125,7 +125,8 @@ def picture_agreement(data: Path, truth: Path) -> Result:
         for frame in read_recording(data / run).frames[::EVERY]:
             if max(abs(frame.pose.pitch), abs(frame.pose.roll)) > COLLISION_TILT:
                 continue
-            recorded = cv2.cvtColor(cv2.imread(str(frame.image_path)), cv2.COLOR_BGR2RGB)
+            picture = cv2.imread(str(frame.image_path))
+            recorded = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
             rendered = renderer.render(frame.pose).image
             ground += _overlap(_ground(recorded), _ground(rendered))
             sky += _overlap(_sky(recorded), _sky(rendered))
