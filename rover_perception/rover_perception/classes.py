@@ -13,8 +13,8 @@ from rover_perception.view import View
 # Ground ends where it is darker than this share of the ground before it. Sand that blends into a
 # wall at a weight of 0.6 to 0.8 has 0.84 of the red of pure sand in the sun (202 of 241), 0.82 in
 # shadow (170 of 208); at 0.4 to 0.6 it has 0.62 and 0.64. A share needs no telling of sun from
-# shadow. That it is 0.72, the middle between the two, was found on generated canyons.
-GROUND_SHARE = 0.72
+# shadow. That it is 0.73, the middle between the two, was found on generated canyons.
+GROUND_SHARE = 0.73
 GROUND_BEFORE = (5, 31)  # [px] columns and rows over which the ground before a pixel is averaged
 # Shadowed blends of 0.6 to 0.8 have red 170 +- 15, sky up to 163; walls 36 +- 19.
 LEAST_RED = 150

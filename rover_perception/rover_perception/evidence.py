@@ -19,12 +19,12 @@ from rover_common.grid import GridGeometry
 from rover_perception.classes import Columns
 from rover_perception.view import View
 
-EDGE_ERROR = 0.7  # [px] of the row where the ground ends: JPEG blocks and the median filter
+EDGE_ERROR = 0.5  # [px] of the row where the ground ends: half a row
 FLOOR_ERROR = 0.03  # [m] height of ground that is still bright: the first 0.2 m of a wall's foot
 FOOT_DEPTH = 0.5  # [m] of an obstacle behind its foot that is taken as seen
 # Behind its foot an obstacle goes on, nobody knows how far. That is worth little, but more than to
 # have seen ground there from afar: sand that rises towards a wall looks like ground beyond it.
-BODY_DEPTH = 4.0  # [m] of an obstacle that is guessed at, falling with the square of the depth
+BODY_DEPTH = 6.0  # [m] of an obstacle that is guessed at, falling with the square of the depth
 # A pixel's length on the ground grows with the square of the range; weight is its inverse square.
 FULL_WEIGHT_RANGE = 2.0  # [m] up to here, every look counts the same
 WEIGHT_POWER = 4

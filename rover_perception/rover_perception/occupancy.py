@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from rover_common.dataflow import GridMap
 from rover_perception.evidence import EvidenceGrid
 
-ENOUGH = 1.0  # evidence below one sure look leaves a cell unknown
+ENOUGH = 0.5  # sure looks; with less, a cell is more likely unseen than seen
 # Navigable cells of the simulator's map lie about 0.4 m inside the flat floor, and sand is seen as
 # ground up to 0.1 to 0.3 m from the floor's edge: a cell on the map is free over more than half of
 # its area. Between half and all of it, this share was found on generated canyons.
