@@ -126,6 +126,7 @@ def picture_agreement(data: Path, truth: Path) -> Result:
             if max(abs(frame.pose.pitch), abs(frame.pose.roll)) > COLLISION_TILT:
                 continue
             picture = cv2.imread(str(frame.image_path))
+            assert picture is not None, frame.image_path
             recorded = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
             rendered = renderer.render(frame.pose).image
             ground += _overlap(_ground(recorded), _ground(rendered))
