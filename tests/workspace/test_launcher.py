@@ -122,6 +122,13 @@ def test_leftovers_of_another_environment_do_no_harm(machine):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def test_the_wheels_of_another_checkout_are_no_installation(machine):
+    sourced = {"ROS_DISTRO": "jazzy", "AMENT_PREFIX_PATH": "/elsewhere/.venv"}
+    wheels = machine.rover("doctor", _ROS_WHEELS_BOOTSTRAP_COMPLETE="1", **sourced)
+    assert "ROS 2 Jazzy from wheels, in .venv" in wheels.stdout
+    assert "ROS 2 Jazzy, sourced" in machine.rover("doctor", **sourced).stdout
+
+
 def test_help_and_unknown_commands(machine):
     assert "usage: ./rover COMMAND" in machine.rover("--help").stdout
     done = machine.rover("dance")
