@@ -14,6 +14,7 @@ from typing import Any
 
 from nav_msgs.msg import Odometry
 from rclpy.clock import Clock, ClockType
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock as ClockMsg
 from rover_interfaces.msg import DriveCommand, RoverStatus
@@ -211,6 +212,6 @@ class BridgeNode(Node):
 def main() -> None:
     """Entry point of `ros2 run rover_bridge bridge_node`."""
     try:
-        run_node(BridgeNode)
+        run_node(BridgeNode, executor_class=SingleThreadedExecutor)  # it has a guard condition
     except OSError as error:  # the port is in use, or the address is not this machine's
         sys.exit(f"bridge_node: {error}")

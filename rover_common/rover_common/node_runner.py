@@ -7,14 +7,23 @@ from collections.abc import Callable
 
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
+
+try:  # handles messages faster, but knows no guard conditions; not in every release of Jazzy
+    from rclpy.experimental import EventsExecutor
+except ImportError:
+    EventsExecutor = SingleThreadedExecutor
 
 # An idle executor's endless wait now and then misses a signal; a bounded one never does.
 WAIT_SECONDS = 0.2
 
 
-def run_node(factory: Callable[[], Node], args: list[str] | None = None) -> None:
+def run_node(
+    factory: Callable[[], Node],
+    args: list[str] | None = None,
+    executor_class: Callable[[], Executor] = EventsExecutor,
+) -> None:
     """Make the node and spin it in this thread."""
     # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
     # raised at an arbitrary line.
@@ -23,7 +32,7 @@ def run_node(factory: Callable[[], Node], args: list[str] | None = None) -> None
     node = None
     try:
         node = factory()
-        executor = SingleThreadedExecutor()
+        executor = executor_class()
         executor.add_node(node)
         while rclpy.ok():
             executor.spin_once(timeout_sec=WAIT_SECONDS)

@@ -29,7 +29,7 @@ TURN_SECONDS = 2.5  # [s]
 
 def explore(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Action:
     """Follow the walls at the speed that the free way ahead allows."""
-    nav = snapshot.percept.nav
+    nav = snapshot.nav
     if len(nav.bearings) == 0:
         return motion.stop(), "sees no ground"
     wanted = EXPLORERS[config.explorer](nav)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rover_common.dataflow import Command, GridMap, Percept, VehicleState
+from rover_common.dataflow import Command, FreeScan, GridMap, PolarArray, Rock, VehicleState
 from rover_decision.states import State
 
 
@@ -13,7 +13,9 @@ class Snapshot:
     """All that is known at one frame."""
 
     vehicle: VehicleState
-    percept: Percept
+    nav: PolarArray  # navigable ground cells
+    scan: FreeScan
+    rocks: tuple[Rock, ...] = ()  # all that are known
     grid: GridMap | None = None  # the newest world map
 
     @property

@@ -72,7 +72,7 @@ class Mission:
             self.reset()
         self._time = snapshot.time
         self._remember(snapshot)
-        terrain = Terrain.of(snapshot.percept.scan, self._config.corridor)
+        terrain = Terrain.of(snapshot.scan, self._config.corridor)
         target = self._target(snapshot)
         event = self._what_happened(snapshot, terrain, target)
         if event is not None and self._machine.handle(event):
@@ -97,7 +97,7 @@ class Mission:
         self._progress.update(snapshot.time, vehicle.pose)
 
     def _target(self, snapshot: Snapshot) -> Target | None:
-        target = self._rocks.nearest(snapshot.percept.rocks, snapshot.vehicle.pose, snapshot.time)
+        target = self._rocks.nearest(snapshot.rocks, snapshot.vehicle.pose, snapshot.time)
         if target is None or target.distance > self._config.rock_range:
             return None
         return target
@@ -218,7 +218,7 @@ class Mission:
             elapsed=self._elapsed(snapshot),
             samples_total=self._samples_total,
             samples_collected=max(0, self._samples_total - snapshot.vehicle.sample_count),
-            rocks_known=self._rocks.wanted(snapshot.percept.rocks),
+            rocks_known=self._rocks.wanted(snapshot.rocks),
             rocks_given_up=self._rocks.given_up,
             home_distance=self._home_distance(snapshot.vehicle.pose),
             distance=self._odometer.distance,

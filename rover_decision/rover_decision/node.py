@@ -1,8 +1,7 @@
 """The decision node: percepts to drive commands, one for every frame.
 
-Subscribes odom, rover_status, nav_polar, rock_polar, free_scan (joined by stamp), rocks and
-worldmap. Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and
-/diagnostics.
+Subscribes odom, rover_status, nav_polar and free_scan (joined by stamp), rocks and worldmap.
+Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and /diagnostics.
 Services ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger). Parameters: see
 DecisionConfig.
 """
@@ -27,7 +26,7 @@ from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from rover_common import conversions, qos, topics
-from rover_common.dataflow import GridMap, Percept, Rock
+from rover_common.dataflow import GridMap, Rock
 from rover_common.node_diagnostics import NodeDiagnostics
 from rover_common.node_parameters import declare_parameters
 from rover_common.node_runner import run_node
@@ -42,7 +41,6 @@ FRAME_PARTS = {
     topics.ODOMETRY: Odometry,
     topics.STATUS: RoverStatus,
     topics.NAV_POLAR: PolarArray,
-    topics.ROCK_POLAR: PolarArray,
     topics.FREE_SCAN: LaserScan,
 }
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
@@ -108,23 +106,21 @@ class DecisionNode(Node):
             self._on_frame(stamp, parts)
 
     def _on_frame(self, stamp: int, parts: dict[str, Any]) -> None:
-        snapshot = self._snapshot(stamp, parts)
+        snapshot = self._snapshot(parts)
         decision = self._mission.tick(snapshot)
         now = int(self.get_clock().now().nanoseconds)
         self._command.publish(conversions.command_message_of(now, stamp, decision.command))
         self._diagnostics.counts["frames"] += 1
         self._report(stamp, decision)
 
-    def _snapshot(self, stamp: int, parts: dict[str, Any]) -> Snapshot:
-        percept = Percept(
-            stamp=stamp,
+    def _snapshot(self, parts: dict[str, Any]) -> Snapshot:
+        return Snapshot(
+            vehicle=conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS]),
             nav=conversions.polar_of(parts[topics.NAV_POLAR]),
-            rock=conversions.polar_of(parts[topics.ROCK_POLAR]),
             scan=conversions.scan_of(parts[topics.FREE_SCAN]),
             rocks=self._rocks,
+            grid=self._grid,
         )
-        vehicle = conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS])
-        return Snapshot(vehicle, percept, self._grid)
 
     def _report(self, stamp: int, decision: Decision) -> None:
         """On every change of state, and twice a second."""

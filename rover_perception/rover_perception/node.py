@@ -67,9 +67,7 @@ class PerceptionNode(Node):
                 image.get_publisher_count() > 0 and odometry.get_publisher_count() > 0
             ),
             "decision": lambda: (
-                self._nav.get_subscription_count() > 0
-                and self._rock_polar.get_subscription_count() > 0
-                and self._scan.get_subscription_count() > 0
+                self._nav.get_subscription_count() > 0 and self._scan.get_subscription_count() > 0
             ),
         }
         self._diagnostics = NodeDiagnostics(self, peers)

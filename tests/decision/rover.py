@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.dataflow import Command, FreeScan, Percept, PolarArray, Rock, VehicleState
+from rover_common.dataflow import Command, FreeScan, PolarArray, Rock, VehicleState
 from rover_common.geometry import Pose
 from rover_common.vehicle import (
     ARM_FORWARD,
@@ -152,6 +152,5 @@ def _snapshot(
     # each bearing holds as many ground cells as its free length
     bearings = np.repeat(BEARINGS, (4 * ranges).astype(int)).astype(np.float32)
     nav = PolarArray(np.ones_like(bearings), bearings)
-    percept = Percept(stamp, nav, PolarArray.empty(), scan, rocks)
     vehicle = VehicleState(stamp, pose, speed, near_sample, picking_up, sample_count)
-    return Snapshot(vehicle, percept)
+    return Snapshot(vehicle, nav, scan, rocks)

@@ -148,7 +148,7 @@ def test_stuck_needs_the_whole_span():
 
 
 def test_a_corridor_is_as_long_as_its_nearest_obstacle():
-    scan = snapshot(ahead=6.0).percept.scan
+    scan = snapshot(ahead=6.0).scan
     scan.ranges[50:58] = 3.0  # right ahead
     terrain = Terrain.of(scan, 0.5)
     assert terrain.clearance(0.0) == pytest.approx(3.0, abs=0.05)
