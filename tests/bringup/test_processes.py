@@ -31,7 +31,7 @@ def test_a_dead_process_is_told_with_the_end_of_its_log(tmp_path):
 
 
 def test_all_processes_end_with_the_block(tmp_path):
-    code = "import os, time; print(os.getpid(), flush=True); time.sleep(600)"
+    code = "import os, signal; print(os.getpid(), flush=True); signal.pause()"
     stubborn = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); " + code
     log = tmp_path / "worker.log"
     with Processes(tmp_path, {}) as processes:
