@@ -17,8 +17,8 @@ from rover_bringup.command import run_command
 from rover_bringup.node_watch import GraphWatch
 from rover_bringup.results import Result, Truth, score, summary, write_results
 from rover_bringup.run import Run, note, result_folder, running_graph
+from rover_simulator.main import add_world_options, world_of
 from rover_simulator.world import World
-from rover_simulator.worldgen import generate_world
 
 SIMULATOR = "simulator"
 # The simulator waits for its answers, so that a slow machine changes nothing.
@@ -34,7 +34,7 @@ class Flight:
 
     time: float  # [s] simulated
     distance: float  # [m]
-    contacts: int  # times that a wall was touched
+    contacts: int  # times that a wall or a rock was touched
     samples_left: int
     track: NDArray[np.float64]  # (n, 2) [m] true positions, one a second
 
@@ -48,8 +48,7 @@ def main(arguments: list[str]) -> int:
 def parser(name: str, description: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"rover {name}", description=description)
     add = parser.add_argument
-    add("--seed", type=int, default=1, help="of the generated world (default: %(default)s)")
-    add("--world", type=Path, metavar="DIR", help="a world's folder instead: map.png, world.yaml")
+    add_world_options(parser)
     add("--time-limit", type=float, default=900.0, metavar="S",
         help="give up after this simulated time [s] (default: %(default)s)")  # fmt: skip
     add("--params", type=Path, metavar="YAML", help="parameters instead of those that ship")
@@ -59,7 +58,7 @@ def parser(name: str, description: str) -> argparse.ArgumentParser:
 
 
 def _mission(options: argparse.Namespace) -> None:
-    world = World.load(options.world) if options.world else generate_world(options.seed)
+    world = world_of(options)
     folder = result_folder("mission", options.out)
     result = fly(world, options.seed, options.time_limit, folder, options.params)
     print(json.dumps(result) if options.json else summary(result))

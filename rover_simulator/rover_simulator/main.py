@@ -14,7 +14,7 @@ from rover_simulator.simulation import Simulation
 from rover_simulator.unity_client import OPEN, ConnectionLostError, ProtocolError, UnityClient
 from rover_simulator.vehicle import STEP
 from rover_simulator.world import World, WorldError
-from rover_simulator.worldgen import generate_world
+from rover_simulator.worldgen import generate_world, world_of_map
 
 WAIT = 0.5  # [s] between looks whether to stop
 
@@ -39,7 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     stop = Stop()
     try:
-        world = World.load(options.world) if options.world else generate_world(options.seed)
+        world = world_of(options)
     except (TruthError, WorldError, OSError) as error:
         print(f"rover sim: {error}", file=sys.stderr)
         return 1
@@ -64,13 +64,32 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
+def add_world_options(parser: argparse.ArgumentParser) -> None:
+    """Which world to drive in."""
+    parser.add_argument("--seed", type=int, default=1,
+        help="of the generated world, or of a map's samples (default: %(default)s)")  # fmt: skip
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument("--map", type=Path, metavar="PNG",
+        help="a map of 200 x 200 pixels instead, white is ground")  # fmt: skip
+    instead.add_argument("--world", type=Path, metavar="DIR",
+        help="a world's folder instead: map.png, world.yaml")  # fmt: skip
+
+
+def world_of(options: argparse.Namespace) -> World:
+    """The chosen world; raises TruthError or WorldError."""
+    if options.world is not None:
+        return World.load(options.world)
+    if options.map is not None:
+        return world_of_map(options.map, options.seed)
+    return generate_world(options.seed)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="rover sim", description=__doc__)
     add = parser.add_argument
     add("--host", default="127.0.0.1", help="of the server (default: %(default)s)")
     add("--port", type=int, default=4567, help="of the server (default: %(default)s)")
-    add("--seed", type=int, default=1, help="of the generated world (default: %(default)s)")
-    add("--world", type=Path, metavar="DIR", help="a world's folder instead: map.png, world.yaml")
+    add_world_options(parser)
     add("--rate", type=_checked_rate, default="realtime",
         help="realtime, fast (as the server answers), or N times real time")  # fmt: skip
     add("--fps", type=float, default=25.0, help="frames per second (default: %(default)s)")

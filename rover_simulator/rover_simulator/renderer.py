@@ -17,12 +17,14 @@ from numpy.typing import NDArray
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
 from rover_common.grid import WORLD_SIZE
+from rover_simulator import boulders
 from rover_simulator.profile import sand_at
 from rover_simulator.terrain import Terrain
 from rover_simulator.world import World
 
 SAND_LIT, SAND_SHADOW = np.array([238, 220, 205.0]), np.array([208, 189, 175.0])
 WALL_LIT, WALL_SHADOW = np.array([41, 28, 24.0]), np.array([19, 12, 9.0])
+BOULDER = np.array([17, 13, 10.0], np.float32)
 SAMPLE = np.array([170, 143, 15.0], np.float32)  # lit by itself, so that it is the same in shadow
 SKY_LOW = np.array([157, 148, 143.0], np.float32)
 SKY_HIGH = np.array([112, 104, 99.0], np.float32)
@@ -52,6 +54,8 @@ class Renderer:
         self._scene = rtcore_scene.EmbreeScene()
         solids = [terrain.triangles()]
         solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
+        solids += [boulders.mesh(boulder) for boulder in world.boulders]
+        self._samples = len(world.samples)
         self._meshes = [TriangleMesh(self._scene, *solid) for solid in solids]
         self._colors = self._paint(terrain)
         rays = ROVER_CAMERA.rays().reshape(-1, 3)
@@ -68,22 +72,24 @@ class Renderer:
         geometry = hit["geomID"]
         distance = np.where(geometry >= 0, hit["tfar"], 0.0).astype(np.float32)[:, None]
         points = origin.astype(np.float32) + rays * distance
-        surface = self._surface(points, geometry > 0)
+        surface = self._surface(points, geometry)
         fog = 1.0 - np.exp(-((FOG_DENSITY * distance) ** 2))
         colors = np.where(geometry[:, None] >= 0, surface + fog * (FOG - surface), _sky(rays))
         image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
         pixels = np.bincount(geometry[geometry >= 0], minlength=len(self._meshes))[1:]
-        return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels)
+        return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels[: self._samples])
 
-    def _surface(self, points: NDArray[np.float32], is_sample: NDArray[np.bool_]) -> NDArray:
-        """Colours (n, 3) of points (n, 3) [m] on the ground or on samples."""
+    def _surface(self, points: NDArray[np.float32], geometry: NDArray[np.integer]) -> NDArray:
+        """Colours (n, 3) of points (n, 3) [m] on the ground, on samples or on boulders."""
         shape = (ROVER_CAMERA.height, ROVER_CAMERA.width)  # remap takes no long columns
         x, y = ((points[:, axis] * PAINT - 0.5).reshape(shape) for axis in (0, 1))
         painted = cv2.remap(self._colors, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         fine = (points * GRAIN).astype(np.int32)
         grain = self._grain[(fine[:, 1] + fine[:, 2]) % 512, fine[:, 0] % 512]
         colors = painted.reshape(-1, 3) + grain[:, None]
-        colors[is_sample] = SAMPLE
+        colors[(geometry > 0) & (geometry <= self._samples)] = SAMPLE
+        is_boulder = geometry > self._samples
+        colors[is_boulder] = BOULDER + grain[is_boulder, None]
         return colors
 
     def _paint(self, terrain: Terrain) -> NDArray[np.float32]:

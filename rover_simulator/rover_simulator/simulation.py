@@ -10,6 +10,7 @@ import numpy as np
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
+from rover_simulator import boulders
 from rover_simulator.arm import Arm
 from rover_simulator.renderer import Renderer, encode_jpeg
 from rover_simulator.telemetry_format import format_telemetry
@@ -19,6 +20,7 @@ from rover_simulator.world import World
 
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
 CONTACT_HEIGHT = 0.1  # [m] of ground under the rover that counts as touching a wall
+CONTACT_SECONDS = 0.5  # [s] after which another touch is another contact
 
 
 class Simulation:
@@ -28,6 +30,7 @@ class Simulation:
         """frame_steps: physics steps of 0.02 s in one rendered frame."""
         self._terrain = Terrain.of(world.navigable, terrain_seed)
         self._renderer = Renderer(world, self._terrain)
+        self._boulders = world.boulders
         self._vehicle = Vehicle(world.start)
         self._arm = Arm([(float(x), float(y)) for x, y in world.samples])
         self._controls = Controls()
@@ -35,7 +38,7 @@ class Simulation:
         self.time = START_TIME
         self.contacts = 0
         self.distance = 0.0  # [m] driven
-        self._touching = False
+        self._untouched = math.inf  # [s] since the last touch
         self._image = b""
         self._next_image = self._photograph()
 
@@ -113,11 +116,18 @@ class Simulation:
             return
         before = self._vehicle.pose
         self._vehicle.step(self._controls, self._terrain.slope_at(before.x, before.y))
+        depth = boulders.overlap(self._vehicle.pose, self._boulders)
+        blocked = depth > 0.0 and depth > boulders.overlap(before, self._boulders)
+        if blocked:
+            self._vehicle.bump(before)
         after = self._vehicle.pose
         self.distance += math.hypot(after.x - before.x, after.y - before.y)
-        touching = self._ground_height() > CONTACT_HEIGHT
-        self.contacts += touching and not self._touching
-        self._touching = touching
+        touching = blocked or self._ground_height() > CONTACT_HEIGHT
+        if touching:
+            self.contacts += self._untouched > CONTACT_SECONDS
+            self._untouched = 0.0
+        else:
+            self._untouched += STEP
 
     def _ground_height(self) -> float:
         pose = self._vehicle.pose

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from rover_simulator.boulders import boulder_cells
 from rover_simulator.profile import MAP_MARGIN, height_at
 from rover_simulator.vehicle import Slope
 
@@ -24,8 +25,8 @@ class Terrain:
 
     @classmethod
     def of(cls, navigable: NDArray[np.bool_], seed: int = 0) -> Terrain:
-        """Build it; the seed decides how rough the walls are."""
-        floor = _floor(navigable)
+        """Build it; the seed decides how rough the walls are. Boulders stand on its floor."""
+        floor = _floor(navigable | boulder_cells(navigable))
         inside = ndimage.distance_transform_edt(floor) / FINE
         outward = ndimage.distance_transform_edt(~floor) / FINE
         outside = np.where(floor, -inside, outward).astype(np.float32)

@@ -76,6 +76,12 @@ class Vehicle:
         self.speed = 0.0
         self._turning = False
 
+    def bump(self, before: Pose) -> None:
+        """Stand still where it was before it ran into something."""
+        pose = self.pose
+        self.pose = Pose(before.x, before.y, before.yaw, pose.pitch, pose.roll)
+        self.speed = 0.0
+
     def step(self, controls: Controls, slope: Slope) -> None:
         """One step of 0.02 s."""
         motor = controls.throttle != 0.0 or controls.brake != 0.0

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import cv2
@@ -12,6 +14,7 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.scoring import load_truth
+from rover_simulator.boulders import Boulder, boulders_of
 
 MAP_NAME, WORLD_NAME = "map.png", "world.yaml"
 
@@ -26,6 +29,11 @@ class World:
     navigable: NDArray[np.bool_]  # (200, 200) cells of 1 m, [y, x]
     samples: NDArray[np.float64]  # (n, 2) [m] map frame
     start: Pose
+
+    @cached_property
+    def boulders(self) -> list[Boulder]:
+        """Small rocks in the open: the small holes of the map."""
+        return boulders_of(self.navigable, zlib.crc32(self.navigable.tobytes()))
 
     def save(self, folder: Path) -> None:
         """Write map.png and world.yaml into the folder."""

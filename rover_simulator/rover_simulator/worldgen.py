@@ -1,8 +1,12 @@
-"""Draw a canyon from a seed: an open centre, winding arms with dead ends, samples at the walls."""
+"""Worlds: canyons drawn from a seed, and maps given as a picture.
+
+A drawn canyon has an open centre, winding arms with dead ends, loops, and small rocks in the open.
+"""
 
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -11,11 +15,21 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_common.geometry import Pose
+from rover_common.scoring import load_truth
+from rover_common.vehicle import START_X, START_Y
+from rover_simulator.samples import place_samples
 from rover_simulator.world import World
 
 SCALE = 4  # pixels per metre while drawing
 BORDER = 15.0  # [m] kept free of canyon at the world's edge
-SAMPLES = 6
+ARMS = 4
+PILLAR_SHARE = 0.5  # of the worlds have a chamber with a pillar: a loop to drive around
+BOULDERS = 5  # holes of one or two cells
+BOULDER_DEPTH = 2.5  # [m] from the walls at least, so that there is a way past it on both sides
+BOULDER_FROM_START = 4.0  # [m]
+
+Point = NDArray[np.float64]
+Picture = NDArray[np.uint8]
 
 
 def generate_world(seed: int, size: float = 1.0) -> World:
@@ -23,32 +37,49 @@ def generate_world(seed: int, size: float = 1.0) -> World:
     random = default_rng(seed)
     center = random.uniform(85, 115, 2)
     picture = np.zeros((200 * SCALE, 200 * SCALE), np.uint8)
-    _blob(picture, center, random.uniform(6, 9), random)
+    _chamber(picture, center, random.uniform(6, 9), random)
     heading = random.uniform(0, 2 * math.pi)
-    arms = 4
-    for arm in range(arms):
-        angle = heading + arm * 2 * math.pi / arms + random.normal(0, 0.25)
-        length = size * random.uniform(45, 80)
-        end, angle = _corridor(picture, center, angle, length, random)
-        _blob(picture, end, random.uniform(3, 6), random)
-        middle_angle = angle + random.choice((-1, 1)) * random.uniform(0.9, 1.4)
-        _corridor(picture, end, middle_angle, size * random.uniform(8, 16), random)
+    ends: list[Point] = []
+    for arm in range(ARMS):
+        angle = heading + arm * 2 * math.pi / ARMS + random.normal(0, 0.25)
+        end, angle = _corridor(picture, center, angle, size * random.uniform(50, 85), random)
+        _chamber(picture, end, random.uniform(3, 6), random)
+        aside = angle + random.choice((-1, 1)) * random.uniform(0.9, 1.4)
+        _corridor(picture, end, aside, size * random.uniform(8, 16), random)
+        ends.append(end)
+    if random.random() < PILLAR_SHARE:
+        _pillared_chamber(picture, ends[int(random.integers(ARMS))], random)
     navigable = _to_cells(picture, center)
-    return World(
-        name=f"seed-{seed}",
-        navigable=navigable,
-        samples=_place_samples(navigable, center, random),
-        start=Pose(float(center[0]), float(center[1]), float(random.uniform(-math.pi, math.pi))),
-    )
+    _place_boulders(navigable, center, random)
+    start = Pose(float(center[0]), float(center[1]), float(random.uniform(-math.pi, math.pi)))
+    return World(f"seed-{seed}", navigable, place_samples(navigable, start, random), start)
+
+
+def world_of_map(path: Path, seed: int) -> World:
+    """A map's canyon, (200, 200) pixels, unflipped; the seed draws the samples and the start's yaw.
+
+    The rover starts where it does in the original, or, where that is no ground, in the middle of
+    the ground nearest to the map's middle. Raises TruthError for a bad map.
+    """
+    truth = load_truth(path)
+    random = default_rng(seed)
+    row, col = int(START_Y), int(START_X)
+    x, y = START_X, START_Y
+    if not truth[row, col]:
+        depth = ndimage.distance_transform_edt(truth)
+        rows, cols = np.nonzero(depth >= 0.7 * depth.max())
+        nearest = int(np.argmin(np.hypot(rows - 100, cols - 100)))
+        row, col = rows[nearest], cols[nearest]
+        x, y = col + 0.5, row + 0.5
+    labels, _ = ndimage.label(truth)
+    start = Pose(float(x), float(y), float(random.uniform(-math.pi, math.pi)))
+    samples = place_samples(labels == labels[row, col], start, random)
+    return World(f"{path.stem}-{seed}", truth, samples, start)
 
 
 def _corridor(
-    picture: NDArray[np.uint8],
-    start: NDArray[np.float64],
-    angle: float,
-    length: float,
-    random: Generator,
-) -> tuple[NDArray[np.float64], float]:
+    picture: Picture, start: Point, angle: float, length: float, random: Generator
+) -> tuple[Point, float]:
     """Draw a winding corridor; returns its end [m] and its last direction [rad]."""
     point = np.array(start, float)
     width = random.uniform(4.0, 7.0)
@@ -65,42 +96,39 @@ def _corridor(
     return point, angle
 
 
-def _blob(
-    picture: NDArray[np.uint8], center: NDArray[np.float64], radius: float, random: Generator
-) -> None:
+def _chamber(picture: Picture, center: Point, radius: float, random: Generator) -> None:
     for _ in range(6):
         offset = random.normal(0, radius / 2.5, 2)
         cv2.circle(picture, _pixel(center + offset), round(radius * 0.7 * SCALE), 255, -1)
     cv2.circle(picture, _pixel(center), round(radius * 0.6 * SCALE), 255, -1)
 
 
-def _pixel(point: NDArray[np.float64]) -> tuple[int, int]:
+def _pillared_chamber(picture: Picture, center: Point, random: Generator) -> None:
+    radius = random.uniform(7.0, 9.0)
+    cv2.circle(picture, _pixel(center), round(radius * SCALE), 255, -1)
+    cv2.circle(picture, _pixel(center), round((radius - 4.5) * SCALE), 0, -1)
+
+
+def _pixel(point: Point) -> tuple[int, int]:
     return round(float(point[0]) * SCALE), round(float(point[1]) * SCALE)
 
 
-def _to_cells(picture: NDArray[np.uint8], center: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _to_cells(picture: Picture, center: Point) -> NDArray[np.bool_]:
     """Navigable cells of 1 m: smooth outlines, one connected region."""
     smooth = cv2.GaussianBlur(picture, (0, 0), 0.8 * SCALE)
     cells = smooth.reshape(200, SCALE, 200, SCALE).mean(axis=(1, 3)) > 127
     labels, _ = ndimage.label(cells)
-    return labels == labels[int(center[1]), int(center[0])]
+    return np.asarray(labels == labels[int(center[1]), int(center[0])])
 
 
-def _place_samples(
-    navigable: NDArray[np.bool_], center: NDArray[np.float64], random: Generator
-) -> NDArray[np.float64]:
-    """Samples near the walls, away from the start and from each other; some just off the map."""
-    depth = ndimage.distance_transform_edt(navigable)
-    beyond = ndimage.distance_transform_edt(~navigable)
-    near_wall = (navigable & (depth <= 1.5)) | (~navigable & (beyond <= 1.0))
-    rows, cols = np.nonzero(near_wall)
-    points = np.stack([cols + 0.5, rows + 0.5], axis=1)
-    points = points[np.hypot(*(points - center).T) > 12.0]
-    chosen: list[NDArray[np.float64]] = []
-    for index in random.permutation(len(points)):
-        point = points[index] + random.uniform(-0.3, 0.3, 2)
-        if all(np.hypot(*(point - other)) > 10.0 for other in chosen):
-            chosen.append(point)
-        if len(chosen) == SAMPLES:
-            break
-    return np.array(chosen).reshape(-1, 2)
+def _place_boulders(navigable: NDArray[np.bool_], center: Point, random: Generator) -> None:
+    """Punch small holes into open ground: rocks that stand there."""
+    for _ in range(BOULDERS):
+        depth = ndimage.distance_transform_edt(navigable)
+        rows, cols = np.nonzero(depth > BOULDER_DEPTH)
+        far = np.hypot(cols + 0.5 - center[0], rows + 0.5 - center[1]) > BOULDER_FROM_START
+        if not far.any():
+            return
+        index = random.choice(np.flatnonzero(far))
+        row, col = rows[index], cols[index]
+        navigable[row, col : col + 1 + int(random.integers(2))] = False

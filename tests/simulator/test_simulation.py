@@ -2,6 +2,7 @@
 
 import math
 
+import cv2
 import numpy as np
 import pytest
 from scipy import ndimage
@@ -13,7 +14,7 @@ from rover_simulator.arm import Arm
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle import STEP, Controls, Slope, Vehicle
 from rover_simulator.world import World, WorldError
-from rover_simulator.worldgen import generate_world
+from rover_simulator.worldgen import generate_world, world_of_map
 
 FLAT = Slope()
 HALL = np.zeros((200, 200), bool)
@@ -198,3 +199,55 @@ def test_a_bad_world_is_one_clear_error(tmp_path):
     (tmp_path / "world.yaml").write_text("start: nowhere")
     with pytest.raises(WorldError, match=r"world\.yaml"):
         World.load(tmp_path)
+
+
+def test_a_rock_in_the_open_stops_the_rover():
+    ground = HALL.copy()
+    ground[100, 104] = False
+    world = World("rock", ground, np.empty((0, 2)), Pose(100.5, 100.5, 0.0))
+    (boulder,) = world.boulders
+    simulation = Simulation(world, 0, 2)
+    simulation.handle("data", command(throttle="0.5"))
+    for _ in range(150):
+        simulation.advance()
+    assert simulation.pose.x == pytest.approx(boulder.x - boulder.radius - 0.535, abs=0.05)
+    assert simulation.contacts == 1
+    simulation.handle("data", command(throttle="-0.5"))
+    for _ in range(50):
+        simulation.advance()
+    assert simulation.pose.x < 102.5
+
+
+def test_large_holes_are_walls_and_small_ones_are_rocks():
+    ground = HALL.copy()
+    ground[90:94, 90:94] = False
+    ground[110, 110:112] = False
+    world = World("holes", ground, np.empty((0, 2)), Pose(100, 100, 0))
+    assert [(b.x, b.y) for b in world.boulders] == [(110.5, 110.5), (111.5, 110.5)]
+
+
+@pytest.mark.parametrize("content", [b"", b"not an image"])
+def test_a_map_that_is_no_image_is_refused(tmp_path, content):
+    (tmp_path / "map.png").write_bytes(content)
+    with pytest.raises(TruthError, match="not an image"):
+        world_of_map(tmp_path / "map.png", 1)
+
+
+@pytest.mark.parametrize(
+    ("pixels", "why"),
+    [(np.zeros((200, 200)), "no navigable cell"), (np.ones((100, 200)), "expected 200 x 200")],
+)
+def test_a_map_without_ground_or_of_another_size_is_refused(tmp_path, pixels, why):
+    cv2.imwrite(str(tmp_path / "map.png"), pixels.astype(np.uint8) * 255)
+    with pytest.raises(TruthError, match=why):
+        world_of_map(tmp_path / "map.png", 1)
+
+
+def test_a_maps_samples_come_from_the_seed(tmp_path):
+    world = generate_world(11)
+    world.save(tmp_path)
+    first, again, other = (world_of_map(tmp_path / "map.png", seed) for seed in (1, 1, 2))
+    assert np.array_equal(first.samples, again.samples)
+    assert not np.array_equal(first.samples, other.samples)
+    assert first.navigable[int(first.start.y), int(first.start.x)]
+    assert len(first.samples) == 6
