@@ -138,9 +138,11 @@ def scan_of(message: LaserScan) -> FreeScan:
     )
 
 
-def rocks_message_of(stamp: int, rocks: tuple[Rock, ...]) -> RockDetectionArray:
+def rocks_message_of(stamp: int, rocks: tuple[Rock, ...], map_stamp: int) -> RockDetectionArray:
+    """`map_stamp` [ns]: of the newest maps at that frame."""
     return RockDetectionArray(
         header=header_of(stamp, frames.MAP),
+        map_stamp=time_of(map_stamp),
         rocks=[
             RockDetection(
                 id=rock.id,

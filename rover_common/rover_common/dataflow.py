@@ -84,6 +84,7 @@ class Percept:
     rock: PolarArray  # rock cells
     scan: FreeScan
     rocks: tuple[Rock, ...]  # all rocks known after this frame
+    map_stamp: int  # [ns] of the newest maps that were due, this frame's or an older one's
 
 
 @dataclass(frozen=True)

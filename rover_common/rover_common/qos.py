@@ -11,7 +11,15 @@ FRAME = QoSProfile(
     durability=DurabilityPolicy.VOLATILE,
 )
 
-# State that a late subscriber needs at once: the map, the rocks, the mission's state.
+# The same for what a late subscriber needs at once: the rocks.
+FRAME_LATCHED = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=4,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
+# State that a late subscriber needs at once: the map, the mission's state.
 LATCHED = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
     depth=1,

@@ -4,48 +4,75 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from rover_common.dataflow import SAFE_COMMAND, Command
-from rover_common.geometry import Pose, wrap_angle
-from rover_common.vehicle import ARM_FORWARD, MAX_STEERING
+from rover_common.vehicle import ARM_FORWARD
 from rover_decision import motion
 from rover_decision.config import DecisionConfig
-from rover_decision.crumbs import Crumbs
 from rover_decision.dataflow import Snapshot
-from rover_decision.explore import EXPLORERS
+from rover_decision.explore import WALL_FOLLOWERS, mean_bearing
+from rover_decision.follower import at_end, bearing_of, bearing_to, follow
+from rover_decision.planning.dataflow import GoalKind, Way
 from rover_decision.rocks import Target
 from rover_decision.terrain import Terrain
 
 Action = tuple[Command, str]
 
 STANDING = 0.1  # [m/s]
-CREEP = 0.5  # [m/s] beside a rock: slow enough to keep the camera level
-REACHED = 1.2  # [m] distance at which a point of the way home counts as reached
+CREEP = 0.6  # [m/s] beside a rock: slow enough to keep the camera level
+ASIDE = math.radians(25.0)  # a rock further aside is turned to on the spot
 LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
-BACK_UP_SECONDS = 2.0  # [s]
-TURN_SECONDS = 2.5  # [s]
+SLOWEST = 0.3  # [m/s]
 
 
 def explore(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Action:
-    """Follow the walls at the speed that the free way ahead allows."""
+    """Drive along the plan, or along the walls."""
+    if config.explorer in WALL_FOLLOWERS:
+        return follow_the_wall(snapshot, terrain, config)
+    plan, vehicle = snapshot.plan, snapshot.vehicle
+    if plan is None:
+        return motion.stop(), "waits for the first plan"
+    if plan.goal is None or len(plan.way) == 0:
+        return motion.turn_in_place(vehicle.speed, LOOK_AROUND), "looks around for a goal"
+    if plan.goal.kind is not GoalKind.ROCK and at_end(vehicle.pose, plan.way):
+        bearing = bearing_to(vehicle.pose, plan.goal.x, plan.goal.y)
+        return motion.turn_in_place(vehicle.speed, bearing), f"looks at {plan.goal.kind.value}"
+    command = follow(vehicle.pose, vehicle.speed, plan.way, terrain, config.top_speed)
+    return command, f"drives to {plan.goal.kind.value}"
+
+
+def follow_the_wall(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Action:
+    """By the preset, at the speed that the free way ahead allows."""
     nav = snapshot.nav
     if len(nav.bearings) == 0:
         return motion.stop(), "sees no ground"
-    wanted = EXPLORERS[config.explorer](nav)
+    wanted = WALL_FOLLOWERS[config.explorer](nav)
     bearing = terrain.best_bearing(wanted, config.go_clearance)
-    return _drive_towards(snapshot, terrain, bearing, config.top_speed), "follows the wall"
+    return drive_towards(snapshot, terrain, bearing, config.top_speed), "follows the wall"
+
+
+def leave_the_circle(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Action:
+    """Where the most ground is, whatever the explorer wants."""
+    if len(snapshot.nav.bearings) == 0:
+        return motion.stop(), "sees no ground"
+    bearing = terrain.best_bearing(mean_bearing(snapshot.nav), config.go_clearance)
+    return drive_towards(snapshot, terrain, bearing, config.top_speed), "leaves the circle"
 
 
 def look_for_a_way(
     snapshot: Snapshot, terrain: Terrain, side: int, config: DecisionConfig
 ) -> Action:
-    """Stop, then turn on the spot to one side (+1 left) until there is a way."""
-    if abs(snapshot.vehicle.speed) > STANDING * 2:
+    """Stop, then turn on the spot: along the plan, or to a side (+1 left) until there is a way."""
+    vehicle = snapshot.vehicle
+    if abs(vehicle.speed) > STANDING * 2:
         return motion.stop(), "no way ahead: stops"
+    if config.explorer not in WALL_FOLLOWERS and snapshot.plan is not None:
+        if len(snapshot.plan.way) == 0:
+            return motion.turn_in_place(vehicle.speed, LOOK_AROUND), "turns to find a way"
+        bearing = bearing_of(vehicle.pose, snapshot.plan.way)
+        return motion.turn_in_place(vehicle.speed, bearing), "turns to the new way"
     way = terrain.way(config.go_clearance)
     bearing = side * LOOK_AROUND if way is None else way
-    return motion.turn_in_place(snapshot.vehicle.speed, bearing), "turns to find a way"
+    return motion.turn_in_place(vehicle.speed, bearing), "turns to find a way"
 
 
 def approach(snapshot: Snapshot, target: Target | None) -> Action:
@@ -56,8 +83,8 @@ def approach(snapshot: Snapshot, target: Target | None) -> Action:
     if snapshot.vehicle.near_sample:
         return motion.stop(), "the rock is in reach: stops"
     short = target.distance - ARM_FORWARD
-    if abs(target.bearing) > math.radians(25.0) and target.distance < 3.0:
-        if target.distance < 1.2:
+    if abs(target.bearing) > ASIDE:
+        if target.distance < ARM_FORWARD:
             return motion.reverse(0.0), "too close beside the rock: backs up"
         return motion.turn_in_place(speed, target.bearing), "turns to the rock"
     if short < -0.3:
@@ -78,53 +105,31 @@ def pick_up(snapshot: Snapshot) -> Action:
     return Command(brake=1.0, pickup=True), "picks up"
 
 
-def back_off(snapshot: Snapshot, seconds: float, side: int) -> Action:
-    """Reverse, then turn on the spot to one side (+1 left): the way out of a corner."""
-    if seconds < BACK_UP_SECONDS:
-        return motion.reverse(-side * MAX_STEERING), "backs up"
-    return (
-        motion.turn_in_place(snapshot.vehicle.speed, side * math.radians(60.0)),
-        "turns away",
-    )
-
-
 def go_home(
-    snapshot: Snapshot, terrain: Terrain, way: np.ndarray, config: DecisionConfig
+    snapshot: Snapshot,
+    terrain: Terrain,
+    way: Way,
+    bearing: float | None,
+    method: str,
+    config: DecisionConfig,
 ) -> Action:
-    """Follow the points (n, 2) [m] home; the caller drops those that are reached."""
-    if len(way) == 0:
-        return motion.stop(), "has no way home"
-    pose, speed = snapshot.vehicle.pose, snapshot.vehicle.speed
-    bearing = bearing_to(pose, way[0])
-    if abs(bearing) > math.radians(50.0):
-        return motion.turn_in_place(speed, bearing), "turns to the way home"
-    distance = float(np.hypot(*(way[0] - (pose.x, pose.y))))
-    bearing = terrain.best_bearing(bearing, min(distance, config.go_clearance))
-    return _drive_towards(snapshot, terrain, bearing, config.top_speed), "follows its crumbs home"
+    """Along the way, or, where there is none, towards the bearing [rad]."""
+    vehicle, reason = snapshot.vehicle, f"goes home by {method}"
+    if len(way) > 0:
+        return follow(vehicle.pose, vehicle.speed, way, terrain, config.top_speed), reason
+    if bearing is None:
+        return motion.turn_in_place(vehicle.speed, LOOK_AROUND), f"{reason}: looks around"
+    if terrain.clearance(bearing) < config.stop_clearance:
+        around = terrain.best_bearing(bearing, config.go_clearance)
+        turn = around if abs(around) > math.radians(10.0) else LOOK_AROUND
+        return motion.turn_in_place(vehicle.speed, turn), f"{reason}: turns"
+    return drive_towards(snapshot, terrain, bearing, config.top_speed), reason
 
 
-def remaining_way(way: np.ndarray, pose: Pose) -> np.ndarray:
-    """The way without the points already reached."""
-    if len(way) == 0:
-        return way
-    near = np.nonzero(np.hypot(way[:8, 0] - pose.x, way[:8, 1] - pose.y) < REACHED)[0]
-    return way[near[-1] + 1 :] if len(near) else way
-
-
-def plan_home(crumbs: Crumbs, pose: Pose) -> np.ndarray:
-    """The way home over the crumbs, (n, 2) [m]."""
-    return crumbs.way_home(pose)
-
-
-def bearing_to(pose: Pose, point: np.ndarray) -> float:
-    """[rad] left positive"""
-    return wrap_angle(math.atan2(point[1] - pose.y, point[0] - pose.x) - pose.yaw)
-
-
-def _drive_towards(
+def drive_towards(
     snapshot: Snapshot, terrain: Terrain, bearing: float, top_speed: float
 ) -> Command:
     """As fast as the free way allows: around a bend, the way is the corridor to its side."""
     ahead = min(terrain.clearance(bearing), terrain.clearance(bearing / 2))
     speed = min(top_speed, motion.approach_speed(ahead - 0.8))
-    return motion.drive(snapshot.vehicle.speed, max(0.3, speed), bearing)
+    return motion.drive(snapshot.vehicle.speed, max(SLOWEST, speed), bearing)

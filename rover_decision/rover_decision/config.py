@@ -10,28 +10,37 @@ from rover_common.config import parameter
 @dataclass(frozen=True)
 class DecisionConfig:
     explorer: str = parameter(
-        "wall_follow_b",
-        "how to explore: wall_follow_a or wall_follow_b",
-        choices=("wall_follow_a", "wall_follow_b"),
+        "tour",
+        "how to explore: tour, frontier, wall_follow_a or wall_follow_b",
+        choices=("tour", "frontier", "wall_follow_a", "wall_follow_b"),
     )
-    top_speed: float = parameter(2.0, "[m/s] speed on open ground", minimum=0.2, maximum=5.0)
+    way_home: str = parameter(
+        "breadcrumbs",
+        "how to come home: breadcrumbs, shortest_path or bearing; the others are tried when it"
+        " does not get on",
+        choices=("breadcrumbs", "shortest_path", "bearing"),
+    )
+    top_speed: float = parameter(3.0, "[m/s] speed on open ground", minimum=0.2, maximum=5.0)
     stop_clearance: float = parameter(
-        1.2, "[m] free way ahead below which the rover stops", minimum=0.5, maximum=10.0
+        1.1, "[m] free way ahead below which the rover stops", minimum=0.5, maximum=10.0
     )
     go_clearance: float = parameter(
-        2.5, "[m] free way ahead above which it goes on", minimum=0.5, maximum=20.0
+        2.5, "[m] free way ahead above which a wall follower goes on", minimum=0.5, maximum=20.0
     )
     corridor: float = parameter(
-        0.55, "[m] half width of the way that must be free", minimum=0.4, maximum=2.0
+        0.5, "[m] half width of the way that must be free", minimum=0.4, maximum=2.0
     )
     rock_range: float = parameter(
-        8.0, "[m] distance within which a rock is approached", minimum=1.0, maximum=30.0
+        3.5,
+        "[m] distance within which a rock is driven to by sight",
+        minimum=1.0,
+        maximum=30.0,
     )
     rock_deadline: float = parameter(
-        40.0, "[s] after which a rock is given up for a while", minimum=5.0, maximum=600.0
+        30.0, "[s] after which a rock is given up for a while", minimum=5.0, maximum=600.0
     )
     retry_after: float = parameter(
-        90.0, "[s] after which a rock given up is tried again", minimum=0.0, maximum=3600.0
+        60.0, "[s] after which a rock given up is tried again", minimum=0.0, maximum=3600.0
     )
     stuck_seconds: float = parameter(
         6.0, "[s] without progress after which the rover is stuck", minimum=1.0, maximum=60.0
@@ -42,6 +51,12 @@ class DecisionConfig:
     home_radius: float = parameter(
         2.0, "[m] distance to the start that counts as home", minimum=0.5, maximum=10.0
     )
-    explore_limit: float = parameter(
-        600.0, "[s] of exploring after which the rover goes home", minimum=10.0, maximum=36000.0
+    time_limit: float = parameter(
+        840.0, "[s] of mission time within which to be home", minimum=10.0, maximum=36000.0
+    )
+    plan_delay: float = parameter(
+        0.3,
+        "[s] of frame time from the map that a plan is made of to the plan's effect",
+        minimum=0.0,
+        maximum=5.0,
     )

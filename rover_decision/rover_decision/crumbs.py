@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
 from rover_common.geometry import Pose
+from rover_decision.planning.costmap import Costmap
 
 SPACING = 0.5  # [m] between crumbs
-LINK = 1.0  # [m] crumbs this near to each other are linked, which cuts the loops out
+BESIDE = 1.0  # [m] crumbs this near to each other are linked in any case
+ACROSS = 6.0  # [m] and up to here where the map shows free ground between them
+ROOM = 0.6  # [m] from obstacles, of a link across
+SAMPLES = 13  # points on which a link across is tried: one for each half metre
+SMOOTHING = 2.0  # [crumbs]
 
 
 class Crumbs:
@@ -22,7 +29,7 @@ class Crumbs:
     def drop(self, pose: Pose) -> None:
         """Leave a crumb when the last one is far enough away."""
         point = (pose.x, pose.y)
-        if not self._points or _distance(self._points[-1], point) >= SPACING:
+        if not self._points or np.hypot(*np.subtract(self._points[-1], point)) >= SPACING:
             self._points.append(point)
 
     @property
@@ -30,24 +37,55 @@ class Crumbs:
         """(n, 2) [m] from the start on."""
         return np.array(self._points, float).reshape(-1, 2)
 
-    def way_home(self, pose: Pose) -> NDArray[np.float64]:
-        """Points (n, 2) [m] from the crumb nearest to the pose back to the start."""
-        points = self.points
-        if len(points) < 2:
-            return points
-        tree = KDTree(points)
-        # Consecutive crumbs are linked however far a jump between them was.
-        links = tree.sparse_distance_matrix(tree, LINK, output_type="coo_matrix").tolil()
-        steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-        for index, step in enumerate(steps):
-            links[index, index + 1] = step
-        _, previous = dijkstra(links.tocsr(), directed=False, indices=0, return_predecessors=True)
-        index = int(tree.query((pose.x, pose.y))[1])
-        way = [index]
-        while way[-1] != 0:
-            way.append(int(previous[way[-1]]))
-        return points[way]
+
+def way_over_crumbs(
+    crumbs: NDArray[np.float64], position: tuple[float, float], costmap: Costmap
+) -> NDArray[np.float64]:
+    """Points (n, 2) [m] from the crumb nearest to the position back to the first of them.
+
+    Loops are cut where the trail comes near to itself, and free ground lies between.
+    """
+    if len(crumbs) < 2:
+        return crumbs
+    tree = KDTree(crumbs)
+    pairs = tree.query_pairs(ACROSS, output_type="ndarray")
+    length = np.linalg.norm(crumbs[pairs[:, 0]] - crumbs[pairs[:, 1]], axis=1)
+    along = np.diff(pairs, axis=1)[:, 0] == 1  # driven, however far a jump it was
+    keep = along | (length <= BESIDE)
+    across = np.flatnonzero(~keep)
+    keep[across] = _clear(crumbs[pairs[across, 0]], crumbs[pairs[across, 1]], costmap)
+    first, second = pairs[keep].T
+    jumps = np.flatnonzero(np.linalg.norm(np.diff(crumbs, axis=0), axis=1) > ACROSS)
+    first, second = np.append(first, jumps), np.append(second, jumps + 1)
+    cost = np.linalg.norm(crumbs[first] - crumbs[second], axis=1)
+    graph = csr_array((cost, (first, second)), shape=(len(crumbs), len(crumbs)))
+    _, previous = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
+    index = int(tree.query(position)[1])
+    way = [index]
+    while way[-1] != 0:
+        way.append(int(previous[way[-1]]))
+    return _dense(crumbs[way])
 
 
-def _distance(a: tuple[float, float], b: tuple[float, float]) -> float:
-    return float(np.hypot(a[0] - b[0], a[1] - b[1]))
+def _clear(
+    starts: NDArray[np.float64], ends: NDArray[np.float64], costmap: Costmap
+) -> NDArray[np.bool_]:
+    """Whether the straight lines between points (n, 2) [m] have room on the map."""
+    share = np.linspace(0.0, 1.0, SAMPLES)[:, None, None]
+    points = starts + share * (ends - starts)
+    row, col = costmap.geometry.cell_of(points[..., 0], points[..., 1])
+    row = np.clip(row, 0, costmap.geometry.rows - 1)
+    col = np.clip(col, 0, costmap.geometry.cols - 1)
+    room = costmap.free[row, col] & (costmap.clearance[row, col] >= ROOM)
+    return np.asarray(room.all(axis=0))
+
+
+def _dense(way: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The way with a point for each half metre, its corners rounded off."""
+    steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
+    at = np.concatenate([[0.0], np.cumsum(steps)])
+    fine = np.linspace(0.0, at[-1], max(2, round(at[-1] / SPACING) + 1))
+    points = np.stack([np.interp(fine, at, way[:, axis]) for axis in (0, 1)], axis=1)
+    smooth = ndimage.gaussian_filter1d(points, SMOOTHING, axis=0, mode="nearest")
+    smooth[-1] = points[-1]
+    return np.asarray(smooth)

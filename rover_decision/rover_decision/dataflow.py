@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rover_common.dataflow import Command, FreeScan, GridMap, PolarArray, Rock, VehicleState
+from rover_common.dataflow import Command, FreeScan, PolarArray, Rock, VehicleState
+from rover_decision.planning.dataflow import Plan
 from rover_decision.states import State
 
 
@@ -16,7 +17,7 @@ class Snapshot:
     nav: PolarArray  # navigable ground cells
     scan: FreeScan
     rocks: tuple[Rock, ...] = ()  # all that are known
-    grid: GridMap | None = None  # the newest world map
+    plan: Plan | None = None  # the one in force at this frame
 
     @property
     def time(self) -> float:
@@ -36,6 +37,7 @@ class Progress:
     rocks_given_up: int = 0
     home_distance: float = 0.0  # [m]
     distance: float = 0.0  # [m] driven
+    recoveries: int = 0  # manoeuvres begun because of being stuck or tilted
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Where to go when nothing else calls: along the walls, so that everything is passed."""
+"""Where to go by sight alone: along the walls, so that everything is passed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,12 @@ def wall_follow_a(nav: PolarArray) -> float:
 
 def wall_follow_b(nav: PolarArray) -> float:
     """Bearing [rad]: the mean of the navigable bearings with a bias to the left."""
-    return float(nav.bearings.astype(np.float64).mean()) + LEFT_BIAS
+    return mean_bearing(nav) + LEFT_BIAS
 
 
-EXPLORERS = {"wall_follow_a": wall_follow_a, "wall_follow_b": wall_follow_b}
+def mean_bearing(nav: PolarArray) -> float:
+    """[rad]"""
+    return float(nav.bearings.astype(np.float64).mean())
+
+
+WALL_FOLLOWERS = {"wall_follow_a": wall_follow_a, "wall_follow_b": wall_follow_b}

@@ -4,25 +4,35 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from rover_common.dataflow import SAFE_COMMAND, Command
 from rover_common.geometry import Pose
-from rover_common.vehicle import ARM_FORWARD
-from rover_decision import behaviours
+from rover_decision import behaviours, recovery
 from rover_decision.config import DecisionConfig
-from rover_decision.crumbs import Crumbs
-from rover_decision.dataflow import Decision, Progress, Snapshot
-from rover_decision.observers import Odometer, ProgressMonitor
-from rover_decision.rocks import RockMemory, Target
+from rover_decision.dataflow import Decision, Snapshot
+from rover_decision.explore import WALL_FOLLOWERS
+from rover_decision.follower import bearing_of
+from rover_decision.home import BREADCRUMBS, WayHome, bearing_home
+from rover_decision.memory import Memory
+from rover_decision.planning.desk import MakeRequest
+from rover_decision.rocks import Target
 from rover_decision.states import Event, Machine, State
 from rover_decision.terrain import Terrain
 
 PICKUP_START_SECONDS = 4.0  # [s] for a pickup to show in the telemetry after it was asked for
-RECOVERY_SECONDS = behaviours.BACK_UP_SECONDS + behaviours.TURN_SECONDS
-WAY_AHEAD = math.radians(8.0)  # a way this near to straight ahead can be driven into
+CIRCLE_SECONDS = 10.0  # [s] of following the mean bearing
+WAY_AHEAD = math.radians(12.0)  # a way this near to straight ahead can be driven into
+STOP_SECONDS = 8.0  # [s] of looking for a way, after which the rover counts as stuck
 RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
-MOVING_STATES = (State.FORWARD, State.STOP, State.ROCK_APPROACH, State.RETURN_HOME)
+GAP_SECONDS = 1.0  # [s] between two frames: the rover drove blindly
+JUMP = 3.0  # [m] between two frames: somebody has moved it
+PLANS_WITHOUT_GOAL = 6  # in a row, while looking around: nothing is left
+HOME_RESERVE = 1.3  # of the time estimated for the way home
+HOME_EXTRA = 30.0  # [s]
+BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where it got stuck
+TILT_AHEAD, TILT_RADIUS = 0.6, 0.5  # [m] where it tilted, for good
+MOVING_STATES = (
+    State.FORWARD, State.STOP, State.CIRCLE, State.ROCK_APPROACH, State.RETURN_HOME,
+)  # fmt: skip
 
 
 class Mission:
@@ -35,23 +45,33 @@ class Mission:
     def reset(self) -> None:
         """Forget everything: the next frame starts a new mission."""
         self._machine = Machine()
+        self._memory: Memory | None = None
         self._entered = 0.0  # [s] when the state was entered
-        self._resume_to: State | None = None
-        self._start: tuple[float, Pose] | None = None
-        self._time = 0.0
-        self._samples_total = 0
-        self._sample_count: int | None = None
+        self._last: tuple[float, Pose] | None = None  # [s] of the last frame, and its pose
         self._pickup_seen = False
+        self._heading_home = False  # once true, recoveries and pickups lead back to it
         self._side = 1  # of the next turn away from an obstacle, +1 left
-        self._progress = ProgressMonitor(self._config.stuck_seconds)
-        self._odometer = Odometer()
-        self._rocks = RockMemory(self._config.retry_after)
-        self._way: np.ndarray = np.empty((0, 2))
-        self.crumbs = Crumbs()
+        self._ladder = recovery.Ladder()
+        self._safe_pose: Pose | None = None
+        self._home = WayHome(self._config.way_home)
 
     @property
     def state(self) -> State:
         return self._machine.state
+
+    @property
+    def memory(self) -> Memory:
+        """What it remembers, from the first frame on."""
+        if self._memory is None:
+            raise RuntimeError("the mission has not had a frame yet")
+        return self._memory
+
+    def start(self) -> bool:
+        """Whether a mission that is over starts again."""
+        if self.state is not State.DONE:
+            return False
+        self.reset()
+        return True
 
     def pause(self) -> bool:
         """Whether the mission could be paused."""
@@ -63,47 +83,34 @@ class Mission:
 
     def return_home(self) -> bool:
         """Whether the mission turns home."""
-        self._way = np.empty((0, 2))
-        return self._machine.handle(Event.finished)
+        self._heading_home = self._machine.handle(Event.finished) or self._heading_home
+        return self.state is State.RETURN_HOME
+
+    def plan_request(self, snapshot: Snapshot) -> MakeRequest:
+        """What a plan is to be made of, asked right after the frame's tick."""
+        by_crumbs = self._heading_home and self._home.method == BREADCRUMBS
+        return self.memory.request(snapshot, by_crumbs)
 
     def tick(self, snapshot: Snapshot) -> Decision:
         """Decide about one frame."""
-        if snapshot.time < self._time - RESTART_SECONDS:
+        if self._last is not None and snapshot.time < self._last[0] - RESTART_SECONDS:
             self.reset()
-        self._time = snapshot.time
-        self._remember(snapshot)
+        if self._memory is None:
+            self._memory = Memory(self._config, snapshot)
+        self._memory.update(snapshot, self.state in (State.RETURN_HOME, State.DONE))
         terrain = Terrain.of(snapshot.scan, self._config.corridor)
-        target = self._target(snapshot)
-        event = self._what_happened(snapshot, terrain, target)
+        target = self._memory.target(snapshot)
+        event = self._what_happened(snapshot, terrain, target, self._memory)
+        self._last = (snapshot.time, snapshot.vehicle.pose)
         if event is not None and self._machine.handle(event):
-            self._on_entry(snapshot, terrain)
-        command, reason = self._act(snapshot, terrain, target)
-        return Decision(command, self.state, reason, self._report(snapshot))
-
-    def _remember(self, snapshot: Snapshot) -> None:
-        vehicle = snapshot.vehicle
-        if self._start is None:
-            self._start = (snapshot.time, vehicle.pose)
-            self._samples_total = vehicle.sample_count
-        self._odometer.update(vehicle.pose)
-        if self.state not in (State.RETURN_HOME, State.DONE):
-            self.crumbs.drop(vehicle.pose)
-        if self._sample_count is not None and vehicle.sample_count < self._sample_count:
-            pose = vehicle.pose
-            self._rocks.collect(
-                pose.x + ARM_FORWARD * math.cos(pose.yaw), pose.y + ARM_FORWARD * math.sin(pose.yaw)
-            )
-        self._sample_count = vehicle.sample_count
-        self._progress.update(snapshot.time, vehicle.pose)
-
-    def _target(self, snapshot: Snapshot) -> Target | None:
-        target = self._rocks.nearest(snapshot.rocks, snapshot.vehicle.pose, snapshot.time)
-        if target is None or target.distance > self._config.rock_range:
-            return None
-        return target
+            self._on_entry(snapshot, terrain, self._memory)
+        command, reason = self._act(snapshot, terrain, target, self._memory)
+        driving = self.state is State.FORWARD and abs(snapshot.vehicle.speed) > 0.3
+        self._memory.circle.update(snapshot.time, command.steering_angle, driving)
+        return Decision(command, self.state, reason, self._memory.report(snapshot))
 
     def _what_happened(
-        self, snapshot: Snapshot, terrain: Terrain, target: Target | None
+        self, snapshot: Snapshot, terrain: Terrain, target: Target | None, memory: Memory
     ) -> Event | None:
         """The first that applies, the most urgent first."""
         state, since = self.state, snapshot.time - self._entered
@@ -111,14 +118,20 @@ class Mission:
             return Event.start
         if state is State.PICKUP:
             return self._pickup_event(snapshot, since)
-        if state in (State.STUCK, State.TILT):
-            return Event.recovered if since > RECOVERY_SECONDS else None
+        if state is State.STUCK:
+            if self._ladder.exhausted and not self._heading_home:
+                self._heading_home = True
+                return Event.gave_up
+            return Event.recovered if since > self._ladder.rung.seconds else None
+        if state is State.TILT:
+            back = recovery.is_back(self._safe_pose, snapshot.vehicle.pose)
+            return Event.recovered if back or since > recovery.TILT_DEADLINE else None
         if state not in MOVING_STATES:
             return None
         return (
-            self._trouble(snapshot)
-            or self._rock_event(snapshot, target, since)
-            or self._way_event(snapshot, terrain)
+            self._trouble(snapshot, since, memory)
+            or self._rock_event(snapshot, target, since, memory)
+            or self._way_event(snapshot, terrain, since, memory)
         )
 
     def _pickup_event(self, snapshot: Snapshot, since: float) -> Event | None:
@@ -130,73 +143,129 @@ class Mission:
             return Event.picked_up
         return Event.pickup_failed if since > PICKUP_START_SECONDS else None
 
-    def _trouble(self, snapshot: Snapshot) -> Event | None:
+    def _trouble(self, snapshot: Snapshot, since: float, memory: Memory) -> Event | None:
         pose = snapshot.vehicle.pose
         if max(abs(pose.pitch), abs(pose.roll)) > self._config.tilt_limit:
             return Event.tilted
-        return Event.stopped_moving if self._progress.stuck() else None
+        if self._last is not None:
+            time, last = self._last
+            jump = math.hypot(pose.x - last.x, pose.y - last.y)
+            if snapshot.time - time > GAP_SECONDS or jump > JUMP:
+                return Event.lost
+        if self.state is State.STOP and since > STOP_SECONDS:
+            return Event.stopped_moving
+        if memory.progress.stuck():
+            return Event.stopped_moving
+        if self.state is State.FORWARD and memory.circle.circling(snapshot.time):
+            return Event.circling
+        return None
 
-    def _rock_event(self, snapshot: Snapshot, target: Target | None, since: float) -> Event | None:
+    def _rock_event(
+        self, snapshot: Snapshot, target: Target | None, since: float, memory: Memory
+    ) -> Event | None:
         vehicle = snapshot.vehicle
         if vehicle.near_sample and not vehicle.picking_up and abs(vehicle.speed) < 1.0:
             return Event.rock_reached
         if self.state is not State.ROCK_APPROACH:
-            return None if target is None else Event.rock_seen
-        if target is None:
+            near = target is not None and target.distance < self._config.rock_range
+            return Event.rock_seen if near and not self._heading_home else None
+        if target is None or target.distance > 2.0 * self._config.rock_range:
             return Event.rock_lost
         if since > self._config.rock_deadline:
-            self._rocks.give_up(target.rock, snapshot.time)
+            memory.rocks.give_up(target.rock, snapshot.time)
             return Event.rock_lost
         return None
 
-    def _way_event(self, snapshot: Snapshot, terrain: Terrain) -> Event | None:
+    def _way_event(
+        self, snapshot: Snapshot, terrain: Terrain, since: float, memory: Memory
+    ) -> Event | None:
+        pose = snapshot.vehicle.pose
         if self.state is State.RETURN_HOME:
-            home = self._home_distance(snapshot.vehicle.pose) < self._config.home_radius
-            return Event.arrived if home else None
-        if self._finished(snapshot):
+            arrived = memory.home_distance(pose) < self._config.home_radius
+            return Event.arrived if arrived else None
+        if self._heading_home or self._finished(snapshot, memory):
+            self._heading_home = True
             return Event.finished
-        if self.state is State.FORWARD:
-            blocked = terrain.clearance(0.0) < self._config.stop_clearance
-            return Event.blocked if blocked else None
-        way = terrain.way(self._config.go_clearance)
-        ahead = way is not None and abs(way) < WAY_AHEAD
-        return Event.cleared if self.state is State.STOP and ahead else None
+        if self.state is State.CIRCLE and since > CIRCLE_SECONDS:
+            return Event.recovered
+        if self.state in (State.FORWARD, State.CIRCLE):
+            wanted = self._wanted_bearing(snapshot)
+            turning = abs(wanted) > math.radians(40.0)
+            blocked = terrain.clearance(wanted / 2) < self._config.stop_clearance
+            return Event.blocked if blocked and not turning else None
+        return Event.cleared if self._cleared(snapshot, terrain, since) else None
 
-    def _finished(self, snapshot: Snapshot) -> bool:
-        collected = self._samples_total > 0 and snapshot.vehicle.sample_count == 0
-        return collected or self._elapsed(snapshot) > self._config.explore_limit
+    def _wanted_bearing(self, snapshot: Snapshot) -> float:
+        """Where the explorer drives [rad]; straight ahead for those that follow walls."""
+        plan = snapshot.plan
+        if self._config.explorer in WALL_FOLLOWERS or plan is None or len(plan.way) == 0:
+            return 0.0
+        return bearing_of(snapshot.vehicle.pose, plan.way)
 
-    def _on_entry(self, snapshot: Snapshot, terrain: Terrain) -> None:
+    def _cleared(self, snapshot: Snapshot, terrain: Terrain, since: float) -> bool:
+        if self.state is not State.STOP:
+            return False
+        if self._config.explorer in WALL_FOLLOWERS or snapshot.plan is None:
+            way = terrain.way(self._config.go_clearance)
+            return way is not None and abs(way) < WAY_AHEAD
+        if snapshot.plan.goal is None:
+            return since > 1.0  # FORWARD looks around
+        wanted = self._wanted_bearing(snapshot)
+        return since > 0.5 and abs(wanted) < WAY_AHEAD and (
+            terrain.clearance(wanted) > 1.2 * self._config.stop_clearance
+        )  # fmt: skip
+
+    def _finished(self, snapshot: Snapshot, memory: Memory) -> bool:
+        plan, follows_walls = snapshot.plan, self._config.explorer in WALL_FOLLOWERS
+        home_seconds = 0.0
+        if plan is not None and math.isfinite(plan.home_seconds):
+            home_seconds = HOME_RESERVE * plan.home_seconds + HOME_EXTRA
+        if memory.elapsed(snapshot) + home_seconds > self._config.time_limit:
+            return True
+        explored = plan is not None and memory.goals.missing >= PLANS_WITHOUT_GOAL
+        return explored or (follows_walls and memory.all_collected(snapshot))
+
+    def _on_entry(self, snapshot: Snapshot, terrain: Terrain, memory: Memory) -> None:
         self._entered = snapshot.time
         self._pickup_seen = False
-        self._progress.restart()
-        if self.state is State.STOP:
-            self._side = terrain.roomier_side()
-        if self.state is State.STUCK:
-            self._side = -self._side  # what was tried before did not help
-        if self.state is State.RETURN_HOME:
-            self._way = behaviours.plan_home(self.crumbs, snapshot.vehicle.pose)
+        memory.progress.restart()
+        pose = snapshot.vehicle.pose
+        match self.state:
+            case State.STOP:
+                self._side = terrain.roomier_side()
+            case State.STUCK:
+                memory.recoveries += 1
+                self._ladder.climb(pose, terrain.roomier_side())
+                memory.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, snapshot.time + BLOCK_SECONDS)
+            case State.TILT:
+                memory.recoveries += 1
+                self._safe_pose = memory.safe_poses.target(pose)
+                memory.block(pose, TILT_AHEAD, TILT_RADIUS, math.inf)
+            case State.RETURN_HOME:
+                self._home.begin(snapshot.time)
 
     def _act(
-        self, snapshot: Snapshot, terrain: Terrain, target: Target | None
+        self, snapshot: Snapshot, terrain: Terrain, target: Target | None, memory: Memory
     ) -> tuple[Command, str]:
-        since = snapshot.time - self._entered
+        vehicle, since = snapshot.vehicle, snapshot.time - self._entered
         match self.state:
             case State.FORWARD:
                 return behaviours.explore(snapshot, terrain, self._config)
             case State.STOP:
                 return behaviours.look_for_a_way(snapshot, terrain, self._side, self._config)
+            case State.CIRCLE:
+                return behaviours.leave_the_circle(snapshot, terrain, self._config)
             case State.ROCK_APPROACH:
                 return behaviours.approach(snapshot, target)
             case State.PICKUP:
                 return behaviours.pick_up(snapshot)
             case State.STUCK:
-                return behaviours.back_off(snapshot, since, self._side)
+                return self._ladder.command(vehicle.speed, since)
             case State.TILT:
-                return behaviours.back_off(snapshot, since, self._side)
+                command = recovery.back_to(self._safe_pose, vehicle.pose, vehicle.speed)
+                return command, "leans too far: backs to level ground"
             case State.RETURN_HOME:
-                self._way = behaviours.remaining_way(self._way, snapshot.vehicle.pose)
-                return behaviours.go_home(snapshot, terrain, self._way, self._config)
+                return self._go_home(snapshot, terrain, memory)
             case State.DONE:
                 return SAFE_COMMAND, "the mission is over"
             case State.PAUSED:
@@ -204,22 +273,8 @@ class Mission:
             case _:
                 return SAFE_COMMAND, "waits for the first frame"
 
-    def _elapsed(self, snapshot: Snapshot) -> float:
-        return 0.0 if self._start is None else snapshot.time - self._start[0]
-
-    def _home_distance(self, pose: Pose) -> float:
-        if self._start is None:
-            return 0.0
-        home = self._start[1]
-        return math.hypot(pose.x - home.x, pose.y - home.y)
-
-    def _report(self, snapshot: Snapshot) -> Progress:
-        return Progress(
-            elapsed=self._elapsed(snapshot),
-            samples_total=self._samples_total,
-            samples_collected=max(0, self._samples_total - snapshot.vehicle.sample_count),
-            rocks_known=self._rocks.wanted(snapshot.rocks),
-            rocks_given_up=self._rocks.given_up,
-            home_distance=self._home_distance(snapshot.vehicle.pose),
-            distance=self._odometer.distance,
-        )
+    def _go_home(self, snapshot: Snapshot, terrain: Terrain, memory: Memory) -> tuple[Command, str]:
+        pose = snapshot.vehicle.pose
+        way = self._home.update(snapshot.time, pose, memory.home, snapshot.plan)
+        bearing = bearing_home(snapshot.nav, pose, memory.home) if len(way) == 0 else None
+        return behaviours.go_home(snapshot, terrain, way, bearing, self._home.method, self._config)

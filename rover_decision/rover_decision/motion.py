@@ -1,34 +1,54 @@
-"""Commands out of intentions: a speed and a direction, a turn on the spot, a stop."""
+"""Commands out of intentions: a speed and a bend, a turn on the spot, a stop."""
 
 from __future__ import annotations
 
 import math
 
 from rover_common.dataflow import Command
-from rover_common.vehicle import MAX_STEERING, TURN_IN_PLACE_BELOW
+from rover_common.vehicle import MAX_SPEED, MAX_STEERING, TURN_IN_PLACE_BELOW, WHEELBASE
 
-THROTTLE_PER_SPEED = 1.0  # [s/m] throttle per missing speed
+THROTTLE_PER_SPEED = 1.5  # [s/m] throttle per missing speed
 BRAKE_PER_SPEED = 0.5  # [s/m] brake per excess speed
 SPEED_SLACK = 0.25  # [m/s] of excess without the brake: coasting sheds it gently
 COMFORT_DECELERATION = 1.2  # [m/s^2]; full brake gives 2.5
 STEERING_PER_BEARING = 0.8
 TURN_TOLERANCE = math.radians(4.0)
+# The front wheels turn by 15 degrees at rest and by 5 at full speed; the yaw rate is this share of
+# the kinematic one.
+WHEEL_AT_REST, WHEEL_AT_SPEED = math.radians(15.0), math.radians(5.0)
+YAW_FACTOR = 0.95
 
 
 def drive(speed: float, target_speed: float, bearing: float) -> Command:
     """Drive towards a bearing [rad] with a speed [m/s], both relative to the body."""
-    steering = max(-MAX_STEERING, min(MAX_STEERING, STEERING_PER_BEARING * bearing))
+    return _at_speed(speed, target_speed, _clip(STEERING_PER_BEARING * bearing))
+
+
+def drive_curve(speed: float, target_speed: float, curvature: float) -> Command:
+    """Drive along a bend [1/m], left positive, with a speed [m/s]."""
+    share = min(1.0, abs(speed) / MAX_SPEED)
+    limit = WHEEL_AT_REST + share * (WHEEL_AT_SPEED - WHEEL_AT_REST)
+    wheel = math.atan(curvature * WHEELBASE / YAW_FACTOR)
+    return _at_speed(speed, target_speed, _clip(MAX_STEERING * wheel / limit))
+
+
+def _at_speed(speed: float, target_speed: float, steering: float) -> Command:
     missing = target_speed - speed
     if missing < -SPEED_SLACK:
         return Command(brake=min(1.0, -missing * BRAKE_PER_SPEED), steering_angle=steering)
-    return Command(
-        throttle=max(0.0, min(1.0, missing * THROTTLE_PER_SPEED)), steering_angle=steering
-    )
+    throttle = max(0.0, min(1.0, missing * THROTTLE_PER_SPEED))
+    return Command(throttle=throttle, steering_angle=steering)
 
 
 def reverse(steering: float) -> Command:
     """Back up slowly with this steering angle [rad]."""
-    return Command(throttle=-0.4, steering_angle=steering)
+    return Command(throttle=-0.4, steering_angle=_clip(steering))
+
+
+def reverse_towards(bearing: float) -> Command:
+    """Back up to a point behind, at this bearing [rad] from the body."""
+    behind = math.copysign(math.pi - abs(bearing), bearing)  # off the tail, left side positive
+    return reverse(STEERING_PER_BEARING * behind)
 
 
 def turn_in_place(speed: float, bearing: float) -> Command:
@@ -37,8 +57,7 @@ def turn_in_place(speed: float, bearing: float) -> Command:
         return stop()
     if abs(bearing) < TURN_TOLERANCE:
         return Command()
-    steering = max(-MAX_STEERING, min(MAX_STEERING, bearing))
-    return Command(steering_angle=steering)
+    return Command(steering_angle=_clip(bearing))
 
 
 def stop() -> Command:
@@ -48,3 +67,7 @@ def stop() -> Command:
 def approach_speed(distance: float) -> float:
     """The speed [m/s] from which the rover still stops comfortably within `distance` [m]."""
     return math.sqrt(max(0.0, 2.0 * COMFORT_DECELERATION * distance))
+
+
+def _clip(steering: float) -> float:
+    return max(-MAX_STEERING, min(MAX_STEERING, steering))

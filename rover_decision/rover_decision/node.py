@@ -1,13 +1,15 @@
 """The decision node: percepts to drive commands, one for every frame.
 
-Subscribes odom, rover_status, nav_polar and free_scan (joined by stamp), rocks and worldmap.
+Subscribes odom, rover_status, nav_polar, free_scan and rocks (joined by stamp), and driving_map.
 Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and /diagnostics.
-Services ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger). Parameters: see
-DecisionConfig.
+Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger). Parameters: see
+DecisionConfig. In simulated time a frame waits for the plan that counts from it on, so that a
+mission repeats exactly.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -26,7 +28,6 @@ from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from rover_common import conversions, qos, topics
-from rover_common.dataflow import GridMap, Rock
 from rover_common.node_diagnostics import NodeDiagnostics
 from rover_common.node_parameters import declare_parameters
 from rover_common.node_runner import run_node
@@ -35,6 +36,8 @@ from rover_decision.config import DecisionConfig
 from rover_decision.conversions import markers_of, mission_state_of
 from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.mission import Mission
+from rover_decision.planning.desk import PlanDesk
+from rover_decision.planning.planner import Planner
 from rover_decision.states import State
 
 FRAME_PARTS = {
@@ -42,7 +45,9 @@ FRAME_PARTS = {
     topics.STATUS: RoverStatus,
     topics.NAV_POLAR: PolarArray,
     topics.FREE_SCAN: LaserScan,
+    topics.ROCKS: RockDetectionArray,
 }
+Parts = dict[str, Any]  # of one frame, by topic
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
 
 
@@ -51,10 +56,12 @@ class DecisionNode(Node):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("decision_node", **kwargs)
-        self._mission = Mission(declare_parameters(self, DecisionConfig))
+        config = declare_parameters(self, DecisionConfig)
+        self._mission = Mission(config)
+        lockstep = bool(self.get_parameter("use_sim_time").value)
+        self._desk = PlanDesk(Planner(config.explorer).plan, config.plan_delay, lockstep)
         self._join = StampJoin(tuple(FRAME_PARTS))
-        self._rocks: tuple[Rock, ...] = ()
-        self._grid: GridMap | None = None
+        self._waiting: deque[tuple[int, Parts]] = deque()  # frames that need a plan first
         self._reported: tuple[int, State] | None = None
         self._command = self.create_publisher(DriveCommand, topics.COMMAND, qos.FRAME)
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
@@ -63,8 +70,7 @@ class DecisionNode(Node):
             self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()
         ]
-        self.create_subscription(RockDetectionArray, topics.ROCKS, self._on_rocks, qos.LATCHED)
-        self.create_subscription(OccupancyGrid, topics.WORLDMAP, self._on_grid, qos.LATCHED)
+        self.create_subscription(OccupancyGrid, topics.DRIVING_MAP, self._on_map, qos.LATCHED)
         self._make_services()
         peers = {
             "bridge": lambda: self._command.get_subscription_count() > 0,
@@ -72,7 +78,14 @@ class DecisionNode(Node):
         }
         self._diagnostics = NodeDiagnostics(self, peers)
 
+    def destroy_node(self) -> None:
+        """End the planner's thread, then the node."""
+        if hasattr(self, "_desk"):
+            self._desk.close()
+        super().destroy_node()
+
     def _make_services(self) -> None:
+        self._serve("start", self._mission.start)
         self._serve("pause", self._mission.pause)
         self._serve("resume", self._mission.resume)
         self._serve("return_home", self._mission.return_home)
@@ -90,39 +103,49 @@ class DecisionNode(Node):
     def _reset(self) -> bool:
         self._mission.reset()
         self._join.clear()
+        self._desk.clear()
+        self._waiting.clear()
         return True
 
-    def _on_rocks(self, message: RockDetectionArray) -> None:
-        self._rocks = conversions.rocks_of(message)
-
-    def _on_grid(self, message: OccupancyGrid) -> None:
-        self._grid = conversions.grid_of(message)
+    def _on_map(self, message: OccupancyGrid) -> None:
+        self._desk.give_map(
+            conversions.stamp_of(message.header.stamp), conversions.grid_of(message)
+        )
+        self._work()
 
     def _on_part(self, topic: str, message: Any) -> None:
         stamp = conversions.stamp_of(message.header.stamp)
         parts = self._join.add(topic, stamp, message)
         self._diagnostics.counts["frames_incomplete"] = self._join.dropped
         if parts is not None:
-            self._on_frame(stamp, parts)
+            self._waiting.append((stamp, parts))
+            self._work()
 
-    def _on_frame(self, stamp: int, parts: dict[str, Any]) -> None:
-        snapshot = self._snapshot(parts)
+    def _work(self) -> None:
+        """Decide on the frames that have all they need, in their order."""
+        while self._waiting and not self._desk.must_wait(self._waiting[0][0]):
+            self._on_frame(*self._waiting.popleft())
+
+    def _on_frame(self, stamp: int, parts: Parts) -> None:
+        snapshot = self._snapshot(stamp, parts)
         decision = self._mission.tick(snapshot)
         now = int(self.get_clock().now().nanoseconds)
         self._command.publish(conversions.command_message_of(now, stamp, decision.command))
+        if conversions.stamp_of(parts[topics.ROCKS].map_stamp) == stamp:
+            self._desk.ask(stamp, self._mission.plan_request(snapshot))
         self._diagnostics.counts["frames"] += 1
-        self._report(stamp, decision)
+        self._report(stamp, snapshot, decision)
 
-    def _snapshot(self, parts: dict[str, Any]) -> Snapshot:
+    def _snapshot(self, stamp: int, parts: Parts) -> Snapshot:
         return Snapshot(
             vehicle=conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS]),
             nav=conversions.polar_of(parts[topics.NAV_POLAR]),
             scan=conversions.scan_of(parts[topics.FREE_SCAN]),
-            rocks=self._rocks,
-            grid=self._grid,
+            rocks=conversions.rocks_of(parts[topics.ROCKS]),
+            plan=self._desk.plan_at(stamp),
         )
 
-    def _report(self, stamp: int, decision: Decision) -> None:
+    def _report(self, stamp: int, snapshot: Snapshot, decision: Decision) -> None:
         """On every change of state, and twice a second."""
         changed = self._reported is None or self._reported[1] is not decision.state
         if changed:
@@ -132,7 +155,7 @@ class DecisionNode(Node):
         self._reported = (stamp, decision.state)
         self._state.publish(mission_state_of(stamp, decision))
         if self._markers.get_subscription_count() > 0:
-            self._markers.publish(markers_of(stamp, self._mission.crumbs.points, self._rocks))
+            self._markers.publish(markers_of(stamp, snapshot, self._mission.memory))
 
 
 def main() -> None:

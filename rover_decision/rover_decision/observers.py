@@ -1,14 +1,25 @@
-"""Watch the rover over time: does it move, how far has it driven."""
+"""Watch the rover over time: does it move, does it circle, what has it looked at."""
 
 from __future__ import annotations
 
 import math
 from collections import deque
 
-from rover_common.geometry import Pose
+import numpy as np
+
+from rover_common.dataflow import FreeScan
+from rover_common.geometry import Pose, wrap_angle
+from rover_common.grid import GridGeometry
+from rover_decision.planning.dataflow import Searched
 
 PROGRESS_DISTANCE = 0.5  # [m]
 PROGRESS_TURN = math.radians(30.0)  # turning on the spot is progress too
+CIRCLE_STEERING = math.radians(8.0)  # [rad] to one side all the time
+CIRCLE_SECONDS = 10.0  # [s]
+SEARCH_RANGE = 6.0  # [m] a rock within is surely seen
+SEARCH_CELL = 1.0  # [m]
+SEARCH_FIELD = math.radians(45.0)  # [rad] to either side
+SEARCH_SLACK = 0.7  # [m] of a cell that may lie beyond the end of the free ground
 
 
 class ProgressMonitor:
@@ -36,6 +47,22 @@ class ProgressMonitor:
             self._trail.popleft()
 
 
+class CircleMonitor:
+    """Whether the rover drives in circles: it has steered to one side for ten seconds."""
+
+    def __init__(self) -> None:
+        self._side = 0.0
+        self._since = 0.0
+
+    def update(self, time: float, steering_angle: float, driving: bool) -> None:
+        side = math.copysign(1.0, steering_angle) if abs(steering_angle) > CIRCLE_STEERING else 0.0
+        if side != self._side or not driving:
+            self._side, self._since = side, time
+
+    def circling(self, time: float) -> bool:
+        return self._side != 0.0 and time - self._since > CIRCLE_SECONDS
+
+
 class Odometer:
     """Distance driven [m]."""
 
@@ -49,6 +76,34 @@ class Odometer:
         self._last = pose
 
 
+class SearchedGround:
+    """Which ground was looked at from near."""
+
+    def __init__(self) -> None:
+        self._geometry = GridGeometry.of_world(SEARCH_CELL)
+        self._mask = np.zeros((self._geometry.rows, self._geometry.cols), bool)
+        reach = round(SEARCH_RANGE / SEARCH_CELL)
+        steps = np.arange(-reach, reach + 1)
+        self._rows, self._cols = (axis.ravel() for axis in np.meshgrid(steps, steps))
+
+    def update(self, pose: Pose, scan: FreeScan) -> None:
+        """Mark the cells in view that no obstacle hides."""
+        row0, col0 = self._geometry.cell_of(pose.x, pose.y)
+        row, col = self._rows + row0, self._cols + col0
+        x, y = self._geometry.center_of(row, col)
+        distance = np.hypot(x - pose.x, y - pose.y)
+        bearing = np.angle(np.exp(1j * (np.arctan2(y - pose.y, x - pose.x) - pose.yaw)))
+        ray = np.round((bearing - scan.angle_min) / scan.angle_increment).astype(int)
+        free = scan.ranges[np.clip(ray, 0, len(scan.ranges) - 1)]
+        near = (distance < SEARCH_RANGE) & (distance < free + SEARCH_SLACK)
+        seen = (near & (np.abs(bearing) < SEARCH_FIELD)) | (distance < 1.0)
+        seen &= self._geometry.contains(row, col)
+        self._mask[row[seen], col[seen]] = True
+
+    def so_far(self) -> Searched:
+        return Searched(self._geometry, self._mask.copy())
+
+
 def _moved(a: Pose, b: Pose) -> bool:
-    turn = abs((a.yaw - b.yaw + math.pi) % (2 * math.pi) - math.pi)
+    turn = abs(wrap_angle(a.yaw - b.yaw))
     return math.hypot(a.x - b.x, a.y - b.y) > PROGRESS_DISTANCE or turn > PROGRESS_TURN

@@ -9,6 +9,7 @@ from rover_common.dataflow import Rock
 from rover_common.geometry import Pose, wrap_angle
 
 SAME_ROCK = 1.5  # [m] a rock this near to where one was picked up is that one
+MOST_TRIES = 3  # what was not there three times is no rock
 
 
 @dataclass(frozen=True)
@@ -18,37 +19,53 @@ class Target:
     bearing: float  # [rad] left positive
 
 
+@dataclass
+class _Tries:
+    count: int
+    last: float  # [s]
+
+
 class RockMemory:
     """Rocks collected and given up."""
 
     def __init__(self, retry_after: float) -> None:
         self._retry_after = retry_after
         self._collected: list[tuple[float, float]] = []
-        self._given_up: dict[int, float] = {}
+        self._tries: dict[int, _Tries] = {}
+
+    def worth_going(self, rocks: tuple[Rock, ...], time: float) -> tuple[Rock, ...]:
+        """The rocks to collect at `time` [s]."""
+        return tuple(rock for rock in rocks if self._wanted(rock, time))
 
     def nearest(self, rocks: tuple[Rock, ...], pose: Pose, time: float) -> Target | None:
         """The nearest rock that is worth going for at `time` [s]."""
-        targets = [_target(rock, pose) for rock in rocks if self._wanted(rock, time)]
+        targets = [_target(rock, pose) for rock in self.worth_going(rocks, time)]
         return min(targets, key=lambda target: target.distance, default=None)
 
-    def wanted(self, rocks: tuple[Rock, ...]) -> int:
+    def left(self, rocks: tuple[Rock, ...]) -> int:
         """How many known rocks are not yet collected."""
         return sum(not self._is_collected(rock) for rock in rocks)
 
     @property
     def given_up(self) -> int:
-        return len(self._given_up)
+        return len(self._tries)
 
     def collect(self, x: float, y: float) -> None:
         """A sample was picked up at this place [m]."""
         self._collected.append((x, y))
 
     def give_up(self, rock: Rock, time: float) -> None:
-        self._given_up[rock.id] = time
+        """For a while; for good after some tries."""
+        tries = self._tries.setdefault(rock.id, _Tries(0, time))
+        tries.count, tries.last = tries.count + 1, time
 
     def _wanted(self, rock: Rock, time: float) -> bool:
-        since = time - self._given_up.get(rock.id, -math.inf)
-        return since >= self._retry_after and not self._is_collected(rock)
+        if self._is_collected(rock):
+            return False
+        tries = self._tries.get(rock.id)
+        if tries is None:
+            return True
+        return tries.count < MOST_TRIES and time - tries.last >= self._retry_after
 
     def _is_collected(self, rock: Rock) -> bool:
         return any(math.hypot(rock.x - x, rock.y - y) < SAME_ROCK for x, y in self._collected)

@@ -41,7 +41,9 @@ class EvidenceGrid:
         self.geometry = geometry
         self.free = np.zeros((geometry.rows, geometry.cols), np.float32)  # weighted looks
         self.blocked = np.zeros_like(self.free)  # weighted looks
-        self.looks = np.zeros_like(self.free)  # sure looks of either kind, from any range
+        # sure looks from any range: at free ground, and at the foot of an obstacle
+        self.free_looks = np.zeros_like(self.free)
+        self.foot_looks = np.zeros_like(self.free)
         self._ahead = _cells_by_heading(max_range, geometry.resolution)
 
     def add(self, view: View, columns: Columns, pose: Pose) -> tuple[NDArray, NDArray]:
@@ -67,7 +69,7 @@ class EvidenceGrid:
         """`margin` in standard deviations, `distance` [m] of each cell."""
         sure = 1.0 - np.exp(-0.5 * margin**2)
         self.free.reshape(-1)[cell] += sure * _weight(distance)
-        self.looks.reshape(-1)[cell] += sure
+        self.free_looks.reshape(-1)[cell] += sure
 
     def _add_blocked(
         self, view: View, cell: NDArray, foot: NDArray, below: NDArray, error: NDArray
@@ -82,7 +84,7 @@ class EvidenceGrid:
         sure = 1.0 - np.exp(-0.5 * (foot_rows / error[body]) ** 2)
         guess = np.minimum(1.0, (FOOT_DEPTH / behind) ** 2)
         self.blocked.reshape(-1)[cell] += sure * guess * _weight(distance)
-        self.looks.reshape(-1)[cell] += np.where(behind < FOOT_DEPTH, sure, 0.0)
+        self.foot_looks.reshape(-1)[cell] += np.where(behind < FOOT_DEPTH, sure, 0.0)
 
     def _cells_ahead(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """Rows and columns inside the grid ahead of the rover, and their level-frame points [m]."""

@@ -1,7 +1,7 @@
 """The perception node: images and poses to a world map, polar arrays and rocks.
 
-Subscribes camera/image_raw and odom (joined by stamp). Publishes nav_polar, rock_polar and
-free_scan for every frame; rocks and worldmap (latched); driving_map and vision_image, both only
+Subscribes camera/image_raw and odom (joined by stamp). Publishes nav_polar, rock_polar, free_scan
+and rocks (latched) for every frame; worldmap (latched); driving_map and vision_image, both only
 while subscribed; /diagnostics. Parameters: see PerceptionConfig.
 """
 
@@ -18,7 +18,7 @@ from sensor_msgs.msg import Image, LaserScan
 
 from rover_common import conversions, frames, qos, topics
 from rover_common.conversions import MessageError
-from rover_common.dataflow import Percept, Rock
+from rover_common.dataflow import Percept
 from rover_common.node_diagnostics import NodeDiagnostics
 from rover_common.node_parameters import declare_parameters
 from rover_common.node_runner import run_node
@@ -44,7 +44,6 @@ class PerceptionNode(Node):
         self._map_stamp: int | None = None
         self._driving_map_stamp: int | None = None
         self._vision_stamp: int | None = None
-        self._rocks: tuple[Rock, ...] = ()
         self._frames_at_last_look = 0
         self._make_endpoints()
         self._pause_timer = self.create_timer(
@@ -56,7 +55,7 @@ class PerceptionNode(Node):
         self._nav = publish(PolarArray, topics.NAV_POLAR, qos.FRAME)
         self._rock_polar = publish(PolarArray, topics.ROCK_POLAR, qos.FRAME)
         self._scan = publish(LaserScan, topics.FREE_SCAN, qos.FRAME)
-        self._rock_list = publish(RockDetectionArray, topics.ROCKS, qos.LATCHED)
+        self._rock_list = publish(RockDetectionArray, topics.ROCKS, qos.FRAME_LATCHED)
         self._map = publish(OccupancyGrid, topics.WORLDMAP, qos.LATCHED)
         self._driving_map = publish(OccupancyGrid, topics.DRIVING_MAP, qos.LATCHED)
         self._vision = publish(Image, topics.VISION_IMAGE, qos.VIEW)
@@ -101,14 +100,13 @@ class PerceptionNode(Node):
     def _publish(self, percept: Percept) -> None:
         """First what the decision waits for."""
         stamp = percept.stamp
-        if percept.rocks != self._rocks:
-            self._rocks = percept.rocks
-            self._rock_list.publish(conversions.rocks_message_of(stamp, percept.rocks))
+        rocks = conversions.rocks_message_of(stamp, percept.rocks, percept.map_stamp)
+        self._rock_list.publish(rocks)
         self._nav.publish(conversions.polar_message_of(stamp, percept.nav))
         self._rock_polar.publish(conversions.polar_message_of(stamp, percept.rock))
         self._scan.publish(conversions.scan_message_of(stamp, percept.scan))
         self._stamp = stamp
-        if _due(self._map_stamp, stamp, self._config.map_period):
+        if percept.map_stamp == stamp:
             self._publish_map(stamp)
         if self._vision.get_subscription_count() and _due(
             self._vision_stamp, stamp, self._config.vision_period

@@ -36,9 +36,11 @@ def shares_of(
 ) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
     """Shares (rows, cols) of each cell of a resolution [m] that are free, and that are blocked."""
     count = round(resolution / evidence.geometry.resolution)
-    seen = evidence.looks >= ENOUGH
-    free = seen & (evidence.free > evidence.blocked)
-    return _share(free, count), _share(seen & ~free, count)
+    seen = evidence.free_looks + evidence.foot_looks >= ENOUGH
+    is_free = evidence.free > evidence.blocked
+    # What is only guessed to lie behind an obstacle is not known, whatever was seen from afar.
+    blocked = ~is_free & (evidence.foot_looks >= ENOUGH)
+    return _share(seen & is_free, count), _share(blocked, count)
 
 
 def _share(mask: NDArray[np.bool_], count: int) -> NDArray[np.floating]:

@@ -63,17 +63,20 @@ class Perception:
         self._rocks = RockTracks()
         self._poses: list[Pose] = []
         self._stamp: int | None = None
+        self._map_stamp: int | None = None
 
     def process(self, frame: CameraFrame) -> Percept:
         """Add one frame to the map; raises FrameError and leaves the map as it was."""
         _check(frame)
         self._restart_on_new_run(frame)
+        map_stamp = self._newest_map(frame.stamp)
         pose = self._pose_of_image(frame.pose)
         view = View.of(ROVER_CAMERA, pose)
         if not view.usable:
             scan = no_scan(self._config.max_range)
             nothing = PolarArray.empty()
-            return Percept(frame.stamp, nothing, nothing, scan, self._rocks.believed())
+            rocks = self._rocks.believed()
+            return Percept(frame.stamp, nothing, nothing, scan, rocks, map_stamp)
         mask = rock_mask(frame.image)
         sightings = detect_rocks(mask, view, pose)
         columns = ground_columns(frame.image, mask if len(sightings.x) else None, view)
@@ -87,6 +90,7 @@ class Perception:
             rock=_polar(sightings.x, sightings.y),
             scan=free_scan(view, columns, self._config.max_range),
             rocks=self._rocks.believed(),
+            map_stamp=map_stamp,
         )
 
     @property
@@ -101,6 +105,13 @@ class Perception:
     def driving_map(self) -> GridMap:
         """The same at the resolution of the evidence."""
         return occupancy_of(self._evidence, self._config.evidence_resolution)
+
+    def _newest_map(self, stamp: int) -> int:
+        """Maps are due at the first frame, and at each that is a period away from the last map."""
+        last, period = self._map_stamp, self._config.map_period * 1e9
+        if last is None or abs(stamp - last) >= period:
+            self._map_stamp = last = stamp
+        return last
 
     def _restart_on_new_run(self, frame: CameraFrame) -> None:
         fell_back = self._stamp is not None and frame.stamp < self._stamp - RESTART_SECONDS * 1e9

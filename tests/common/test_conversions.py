@@ -53,7 +53,7 @@ def test_polar_and_scan():
 
 def test_rocks():
     rocks = (Rock(7, 1.0, 2.0, (0.1, 0.0, 0.0, 0.2), 5, STAMP),)
-    assert conversions.rocks_of(conversions.rocks_message_of(STAMP, rocks)) == rocks
+    assert conversions.rocks_of(conversions.rocks_message_of(STAMP, rocks, STAMP)) == rocks
 
 
 def test_grid():

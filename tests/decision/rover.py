@@ -7,8 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.dataflow import Command, FreeScan, PolarArray, Rock, VehicleState
+from rover_common.dataflow import Command, FreeScan, GridMap, PolarArray, Rock, VehicleState
 from rover_common.geometry import Pose
+from rover_common.grid import GridGeometry
 from rover_common.vehicle import (
     ARM_FORWARD,
     ARM_RADIUS,
@@ -18,10 +19,18 @@ from rover_common.vehicle import (
     TURN_IN_PLACE_RATE,
     WHEELBASE,
 )
-from rover_decision.dataflow import Snapshot
+from rover_decision.config import DecisionConfig
+from rover_decision.dataflow import Decision, Snapshot
+from rover_decision.mission import Mission
+from rover_decision.planning.dataflow import NO_WAY, Goal, GoalKind, Plan, Way
+from rover_decision.planning.desk import PlanDesk
+from rover_decision.planning.planner import Planner
+from rover_decision.states import State
 
 PERIOD = 0.05  # [s]
+PLAN_PERIOD = 0.5  # [s]
 RANGE = 12.0  # [m]
+CELL = 0.25  # [m] of the map
 MIDDLE = Pose(100.0, 100.0, 0.0)
 BEARINGS = np.radians(np.arange(-54, 55))
 
@@ -35,12 +44,28 @@ def snapshot(
     near_sample: bool = False,
     picking_up: bool = False,
     sample_count: int = 3,
+    plan: Plan | None = None,
 ) -> Snapshot:
     """Open ground for `ahead` [m] in every direction."""
     scan = FreeScan(
         float(BEARINGS[0]), math.radians(1), 0.75, RANGE, np.full(len(BEARINGS), ahead, np.float32)
     )
-    return _snapshot(time, pose, speed, scan, rocks, near_sample, picking_up, sample_count)
+    return _snapshot(time, pose, speed, scan, rocks, near_sample, picking_up, sample_count, plan)
+
+
+def straight_plan(
+    length: float = 20.0, pose: Pose = MIDDLE, stamp: int = 0, goal: bool = True
+) -> Plan:
+    """To a frontier straight ahead; home lies straight behind."""
+    steps = np.arange(0.5, length, 0.5)
+    ahead = np.stack(
+        [pose.x + steps * math.cos(pose.yaw), pose.y + steps * math.sin(pose.yaw)], axis=1
+    )
+    back = 2 * np.array([(pose.x, pose.y)]) - ahead
+    speeds = np.full(len(steps), 3.0)
+    to = Goal(GoalKind.FRONTIER, float(ahead[-1, 0]), float(ahead[-1, 1])) if goal else None
+    way = Way(ahead, speeds) if goal else NO_WAY
+    return Plan(stamp, to, way, Way(back, speeds), 10.0, np.empty((0, 2)), 0.5)
 
 
 def rock(x: float, y: float, number: int = 1) -> Rock:
@@ -60,8 +85,10 @@ class PlanarRover:
         self.time = 1.0
         self.unsafe_pickups = 0
         self._pickup_until = 0.0
+        self._cells = GridGeometry.of_world(CELL)
+        self._known = np.zeros((self._cells.rows, self._cells.cols), bool)
 
-    def look(self) -> Snapshot:
+    def look(self, plan: Plan | None = None) -> Snapshot:
         """What ideal senses would say."""
         picking_up = self.time < self._pickup_until
         rocks = tuple(
@@ -72,8 +99,34 @@ class PlanarRover:
         near = self._sample_in_reach() is not None
         speed = 0.0 if picking_up else self.speed
         return _snapshot(
-            self.time, self.pose, speed, self._scan(), rocks, near, picking_up, len(self.samples)
+            self.time,
+            self.pose,
+            speed,
+            self._scan(),
+            rocks,
+            near,
+            picking_up,
+            len(self.samples),
+            plan,
         )
+
+    def map(self) -> GridMap:
+        """All cells that it has had in view."""
+        reach = round(RANGE / CELL)
+        row0, col0 = self._cells.cell_of(self.pose.x, self.pose.y)
+        steps = np.arange(-reach, reach + 1)
+        row, col = np.meshgrid(row0 + steps, col0 + steps, indexing="ij")
+        x, y = self._cells.center_of(row, col)
+        distance = np.hypot(x - self.pose.x, y - self.pose.y)
+        bearing = np.arctan2(y - self.pose.y, x - self.pose.x) - self.pose.yaw
+        bearing = np.angle(np.exp(1j * bearing))
+        ray = np.clip(np.round(np.degrees(bearing)) + 54, 0, 108).astype(int)
+        seen = (np.abs(bearing) < math.radians(54)) & (distance < self._scan().ranges[ray] + 0.5)
+        seen &= distance < RANGE
+        self._known[row[seen], col[seen]] = True
+        truth = np.kron(self._navigable, np.ones((4, 4), bool))
+        cells = np.where(self._known, np.where(truth, 0, 100), -1).astype(np.int8)
+        return GridMap(CELL, 0.0, 0.0, cells)
 
     def step(self, command: Command) -> None:
         """One frame of driving."""
@@ -146,6 +199,7 @@ def _snapshot(
     near_sample: bool,
     picking_up: bool,
     sample_count: int,
+    plan: Plan | None,
 ) -> Snapshot:
     stamp = round(time * 1e9)
     ranges = np.minimum(scan.ranges, RANGE)
@@ -153,4 +207,25 @@ def _snapshot(
     bearings = np.repeat(BEARINGS, (4 * ranges).astype(int)).astype(np.float32)
     nav = PolarArray(np.ones_like(bearings), bearings)
     vehicle = VehicleState(stamp, pose, speed, near_sample, picking_up, sample_count)
-    return Snapshot(vehicle, nav, scan, rocks)
+    return Snapshot(vehicle, nav, scan, rocks, plan)
+
+
+def fly(rover: PlanarRover, config: DecisionConfig, time_limit: float) -> tuple[Mission, Decision]:
+    """Until the mission is over or the time [s] is up, with a plan twice a second."""
+    mission = Mission(config)
+    desk = PlanDesk(Planner(config.explorer).plan, config.plan_delay, lockstep=True)
+    planned = -1.0
+    try:
+        while True:
+            stamp = round(rover.time * 1e9)
+            snapshot = rover.look(desk.plan_at(stamp))
+            decision = mission.tick(snapshot)
+            if mission.state is State.DONE or rover.time > time_limit:
+                return mission, decision
+            if rover.time - planned >= PLAN_PERIOD:
+                planned = rover.time
+                desk.ask(stamp, mission.plan_request(snapshot))
+                desk.give_map(stamp, rover.map())
+            rover.step(decision.command)
+    finally:
+        desk.close()

@@ -4,30 +4,59 @@ import math
 
 import numpy as np
 import pytest
-from rover import PERIOD, PlanarRover, rock, snapshot
+from rover import MIDDLE, PERIOD, PlanarRover, fly, rock, snapshot, straight_plan
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
-from rover_decision.crumbs import Crumbs
-from rover_decision.mission import Mission
-from rover_decision.observers import ProgressMonitor
+from rover_decision.follower import follow
+from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
+from rover_decision.observers import CircleMonitor, ProgressMonitor
+from rover_decision.planning.dataflow import Way
+from rover_decision.recovery import LADDER
+from rover_decision.rocks import MOST_TRIES
 from rover_decision.states import State
 from rover_decision.terrain import Terrain
 
 CONFIG = DecisionConfig()
+WALL_FOLLOWER = DecisionConfig(explorer="wall_follow_b")
+PLAN = straight_plan()
 
 
-def test_open_ground_is_driven_on():
+def test_it_drives_along_its_plan():
     mission = Mission(CONFIG)
-    decision = mission.tick(snapshot())
-    assert decision.state is State.FORWARD
-    assert decision.command.throttle > 0
-    assert decision.command.brake == 0
+    waiting = mission.tick(snapshot(1.0))
+    assert (waiting.state, waiting.command.brake) == (State.FORWARD, 1.0)
+    driving = mission.tick(snapshot(1.1, plan=PLAN))
+    assert driving.command.throttle > 0
+    assert driving.command.brake == 0
 
 
-def test_a_wall_ahead_stops_and_then_turns_without_the_brake():
+def test_a_way_behind_is_turned_to_on_the_spot_without_the_brake():
     mission = Mission(CONFIG)
+    behind = straight_plan(pose=Pose(MIDDLE.x, MIDDLE.y, math.pi))
+    mission.tick(snapshot(1.0))
+    fast = mission.tick(snapshot(1.1, speed=1.0, plan=behind))
+    assert fast.command.brake > 0
+    standing = mission.tick(snapshot(1.2, plan=behind))
+    assert standing.command.brake == standing.command.throttle == 0
+    assert abs(standing.command.steering_angle) == pytest.approx(MAX_STEERING)
+
+
+def test_bends_are_driven_slower_than_straights():
+    angle = np.linspace(0, math.pi / 2, 12)
+    bend = np.stack([MIDDLE.x + 4 * np.sin(angle), MIDDLE.y + 4 * (1 - np.cos(angle))], axis=1)
+    way = Way(bend, np.full(len(bend), 5.0))
+    terrain = Terrain.of(snapshot().scan, 0.5)
+    around = follow(MIDDLE, 2.5, way, terrain, 4.0)
+    straight = follow(MIDDLE, 2.5, PLAN.way, terrain, 4.0)
+    assert straight.throttle > 0
+    assert around.throttle < straight.throttle
+    assert around.steering_angle > 0
+
+
+def test_a_wall_ahead_stops_a_wall_follower_and_then_turns_it():
+    mission = Mission(WALL_FOLLOWER)
     mission.tick(snapshot(1.0))
     fast = mission.tick(snapshot(1.1, ahead=1.0, speed=1.5))
     assert fast.state is State.STOP
@@ -35,16 +64,26 @@ def test_a_wall_ahead_stops_and_then_turns_without_the_brake():
     slow = mission.tick(snapshot(1.2, ahead=1.0, speed=0.0))
     assert slow.command.brake == slow.command.throttle == 0
     assert slow.command.steering_angle == pytest.approx(MAX_STEERING)
-    free = mission.tick(snapshot(1.3))
-    assert free.state is State.FORWARD
+    assert mission.tick(snapshot(1.3)).state is State.FORWARD
+
+
+def test_an_obstacle_on_the_way_stops_it_until_there_is_another_way():
+    mission = Mission(CONFIG)
+    mission.tick(snapshot(1.0, plan=PLAN))
+    assert mission.tick(snapshot(1.1, ahead=1.0, speed=1.5, plan=PLAN)).state is State.STOP
+    aside = straight_plan(pose=Pose(MIDDLE.x, MIDDLE.y, 1.0))
+    turning = mission.tick(snapshot(1.2, ahead=1.0, plan=aside))
+    assert turning.command.steering_angle == pytest.approx(MAX_STEERING)
+    turned = Pose(MIDDLE.x, MIDDLE.y, 1.0)
+    assert mission.tick(snapshot(2.0, turned, plan=aside)).state is State.FORWARD
 
 
 def test_a_rock_is_approached_and_picked_up_only_when_standing():
     mission = Mission(CONFIG)
-    rocks = (rock(104.0, 100.0),)
+    rocks = (rock(103.0, 100.0),)
     mission.tick(snapshot(1.0, rocks=rocks))
     assert mission.tick(snapshot(1.1, rocks=rocks)).state is State.ROCK_APPROACH
-    rolling = mission.tick(snapshot(2.0, rocks=rocks, near_sample=True, speed=0.4))
+    rolling = mission.tick(snapshot(1.9, rocks=rocks, near_sample=True, speed=0.4))
     assert rolling.state is State.PICKUP
     assert not rolling.command.pickup
     assert mission.tick(snapshot(2.1, rocks=rocks, near_sample=True)).command.pickup
@@ -55,51 +94,98 @@ def test_a_rock_is_approached_and_picked_up_only_when_standing():
     assert done.progress.samples_collected == 1
 
 
-def test_a_rock_out_of_reach_is_given_up_and_tried_again():
+def test_a_rock_out_of_reach_is_given_up_tried_again_and_then_left():
     mission = Mission(CONFIG)
-    rocks = (rock(104.0, 100.0),)
-    states = []
-    for step in range(400):
-        time = 1.0 + step * 0.5
-        pose = Pose(100.0 + (step % 2) * 2, 100.0, 0.0)  # moves, so that it is not stuck
-        states.append(mission.tick(snapshot(time, pose, rocks=rocks)).state)
-    given_up = states.index(State.FORWARD, 5)
-    assert given_up * 0.5 >= CONFIG.rock_deadline - 1
-    assert State.ROCK_APPROACH in states[given_up + 10 :]
+    rocks = (rock(103.0, 100.0),)
+    approaches, before = 0, State.IDLE
+    for step in range(1400):
+        pose = Pose(100.0 + (step // 2 % 2), 100.0, 0.0)  # moves, so that it is not stuck
+        state = mission.tick(snapshot(1.0 + step * 0.5, pose, rocks=rocks, plan=PLAN)).state
+        approaches += state is State.ROCK_APPROACH and before is not state
+        before = state
+    assert approaches == MOST_TRIES
 
 
-def test_no_progress_is_stuck_and_leads_to_backing_up():
+def test_no_progress_is_stuck_and_leads_to_backing_up_and_in_the_end_home():
     mission = Mission(CONFIG)
-    commands = [mission.tick(snapshot(1.0 + 0.1 * step)) for step in range(100)]
-    stuck = [decision for decision in commands if decision.state is State.STUCK]
-    assert stuck
+    decisions = [mission.tick(snapshot(1.0 + 0.1 * step, plan=PLAN)) for step in range(1500)]
+    stuck = [decision for decision in decisions if decision.state is State.STUCK]
     assert stuck[0].command.throttle < 0
-    assert commands[-1].state is not State.STUCK or len(stuck) < 60
+    assert mission.memory.blocked
+    last = decisions[-1]
+    assert last.progress.recoveries > len(LADDER)
+    assert any("home" in decision.reason for decision in decisions) or last.state is State.DONE
 
 
-def test_a_tilt_backs_off_at_once():
+def test_a_tilt_stops_backs_off_and_marks_the_place():
     mission = Mission(CONFIG)
-    mission.tick(snapshot(1.0))
-    tilted = mission.tick(snapshot(1.1, pose=Pose(100, 100, 0, pitch=-0.3)))
-    assert tilted.state is State.TILT
-    assert tilted.command.throttle < 0
+    for step in range(10):
+        mission.tick(snapshot(1.0 + 0.1 * step, Pose(99.0 + 0.1 * step, 100, 0), plan=PLAN))
+    leaning = Pose(100, 100, 0, pitch=-0.3)
+    fast = mission.tick(snapshot(2.0, pose=leaning, speed=1.0, plan=PLAN))
+    assert fast.state is State.TILT
+    assert fast.command.brake == 1.0
+    assert mission.tick(snapshot(2.1, pose=leaning, plan=PLAN)).command.throttle < 0
+    (place,) = mission.memory.blocked
+    assert place.until == math.inf
+    level = Pose(99.2, 100, 0)
+    assert mission.tick(snapshot(3.0, pose=level, plan=PLAN)).state is State.FORWARD
 
 
-def test_when_all_is_collected_it_goes_home_and_stays():
+def test_missing_frames_and_jumps_stop_it():
+    for later in (
+        snapshot(1.2 + GAP_SECONDS, speed=1.0, plan=PLAN),
+        snapshot(1.2, Pose(120.0, 100.0, 0.0), speed=1.0, plan=PLAN),
+    ):
+        mission = Mission(CONFIG)
+        mission.tick(snapshot(1.0, plan=PLAN))
+        mission.tick(snapshot(1.1, plan=PLAN))
+        decision = mission.tick(later)
+        assert (decision.state, decision.command.brake) == (State.STOP, 1.0)
+
+
+def test_steering_to_one_side_for_long_is_a_circle():
+    monitor = CircleMonitor()
+    for step in range(200):
+        monitor.update(0.1 * step, 0.2, driving=True)
+    assert monitor.circling(20.0)
+    monitor.update(20.1, -0.2, driving=True)
+    assert not monitor.circling(20.2)
+
+
+def test_when_nothing_is_left_it_goes_home_and_stays():
     mission = Mission(CONFIG)
     for step in range(60):
-        mission.tick(snapshot(1.0 + 0.2 * step, Pose(100.0 + 0.4 * step, 100.0, 0.0)))
-    turned = mission.tick(snapshot(13.2, Pose(123.6, 100.0, 0.0), sample_count=0))
+        mission.tick(snapshot(1.0 + 0.2 * step, Pose(100.0 + 0.4 * step, 100.0, 0.0), plan=PLAN))
+    far = Pose(123.6, 100.0, 0.0)
+    for index in range(PLANS_WITHOUT_GOAL):
+        empty = straight_plan(pose=far, stamp=1 + index, goal=False)
+        turned = mission.tick(snapshot(13.0 + 0.1 * index, far, sample_count=0, plan=empty))
     assert turned.state is State.RETURN_HOME
-    home = mission.tick(snapshot(60.0, Pose(100.5, 100.0, math.pi), sample_count=0))
+    near = Pose(101.5, 100.0, math.pi)
+    mission.tick(snapshot(14.0, far, sample_count=0, plan=empty))
+    for step in range(25):  # no jumps
+        pose = Pose(123.6 - 0.9 * step, 100.0, math.pi)
+        home = mission.tick(snapshot(14.1 + 0.5 * step, pose, sample_count=0, plan=empty))
+    home = mission.tick(snapshot(27.0, near, sample_count=0, plan=empty))
     assert home.state is State.DONE
-    later = mission.tick(snapshot(61.0, Pose(100.5, 100.0, math.pi), sample_count=0))
-    assert later.command.brake > 0
-    assert later.command.throttle == 0
+    later = mission.tick(snapshot(27.5, near, sample_count=0, plan=empty))
+    assert (later.command.brake, later.command.throttle) == (1.0, 0.0)
+    assert mission.start()
+    assert mission.state is State.IDLE
+
+
+def test_when_the_time_is_up_it_goes_home():
+    mission = Mission(DecisionConfig(time_limit=60.0))
+    states = [
+        mission.tick(snapshot(1.0 + step, Pose(100 + step, 100, 0), plan=PLAN)).state
+        for step in range(40)
+    ]
+    assert State.RETURN_HOME in states
 
 
 def test_without_ground_in_sight_it_brakes():
-    mission = Mission(CONFIG)
+    mission = Mission(WALL_FOLLOWER)
     mission.tick(snapshot(1.0))
     assert mission.tick(snapshot(1.1, ahead=0.0)).command.throttle <= 0
 
@@ -123,16 +209,6 @@ def test_time_that_falls_back_starts_anew():
     again = mission.tick(snapshot(1.0))
     assert again.progress.elapsed == 0
     assert again.progress.distance == 0
-
-
-def test_crumbs_cut_loops_out():
-    crumbs = Crumbs()
-    for angle in np.linspace(0, 2 * math.pi, 60):  # a loop that comes back to its beginning
-        crumbs.drop(Pose(10 + 5 * math.sin(angle), 15 - 5 * math.cos(angle), 0))
-    crumbs.drop(Pose(9.0, 10.0, 0))
-    way = crumbs.way_home(Pose(9.0, 10.0, 0))
-    assert len(way) < 6
-    assert np.hypot(*(way[-1] - (10, 10))) < 0.1
 
 
 def test_stuck_needs_the_whole_span():
@@ -177,22 +253,49 @@ RING = (ring(), Pose(83.0, 100.0, 1.57), [(83.0, 110.0), (100.0, 118.5)])
 BENDS = (bends(), Pose(83.0, 98.5, 0.0), [(95.0, 100.5), (125.0, 117.0)])
 
 
+@pytest.mark.parametrize("world", [RING, BENDS], ids=["ring", "bends"])
 @pytest.mark.parametrize(
-    ("explorer", "navigable", "start", "samples"),
-    [("wall_follow_a", *RING), ("wall_follow_a", *BENDS), ("wall_follow_b", *RING)],
-    ids=["a-ring", "a-bends", "b-ring"],
+    ("explorer", "way_home"),
+    [
+        ("tour", "breadcrumbs"),
+        ("tour", "shortest_path"),
+        ("tour", "bearing"),
+        ("frontier", "breadcrumbs"),
+        ("wall_follow_a", "breadcrumbs"),
+    ],
 )
-def test_a_mission_brings_all_samples_home(explorer, navigable, start, samples):
+def test_a_mission_brings_all_samples_home(explorer, way_home, world):
+    navigable, start, samples = world
     rover = PlanarRover(navigable, start, samples)
-    mission = Mission(DecisionConfig(explorer=explorer))
-    decision = None
-    while rover.time < 400 and mission.state is not State.DONE:
-        decision = mission.tick(rover.look())
-        rover.step(decision.command)
-    assert decision is not None
+    mission, decision = fly(rover, DecisionConfig(explorer=explorer, way_home=way_home), 400)
     assert rover.samples == []
     assert rover.unsafe_pickups == 0
     assert mission.state is State.DONE
     assert decision.progress.home_distance < CONFIG.home_radius
     assert decision.progress.samples_collected == len(samples)
     assert PERIOD < decision.progress.elapsed < 400
+
+
+def test_the_tour_sees_all_of_a_world():
+    navigable, start, samples = BENDS
+    rover = PlanarRover(navigable, start, samples)
+    fly(rover, CONFIG, 400)
+    free = rover.map().cells == 0
+    assert np.count_nonzero(free) > 0.97 * 16 * np.count_nonzero(navigable)
+
+
+def test_the_same_mission_twice():
+    def track() -> list[Pose]:
+        rover = PlanarRover(*BENDS[:2], samples=list(BENDS[2]))
+        poses = []
+        step = rover.step
+
+        def recorded(command):
+            step(command)
+            poses.append(rover.pose)
+
+        rover.step = recorded
+        fly(rover, CONFIG, 60)
+        return poses
+
+    assert track() == track()

@@ -1,0 +1,66 @@
+"""Goals that the rover has been at, or could not get to, and that are still there."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.geometry import Pose
+from rover_decision.planning.dataflow import Goal, GoalKind, Plan
+
+AT_GOAL = 1.2  # [m]
+LINGER = 3.0  # [s] at a goal, after which what there was to see has been seen
+OUT_OF_REACH = 60.0  # [s] on the way to one goal
+FORGET = 150.0  # [s] after which a goal may be tried again
+SAME = 4.0  # [m] between two plans' goals
+
+
+class GoalMemory:
+    """Watches the goals of the plans."""
+
+    def __init__(self) -> None:
+        self._visited: list[tuple[float, float, float]] = []  # x, y [m], until [s]
+        self._goal: Goal | None = None
+        self._since = 0.0  # [s] when the goal was set
+        self._near_since: float | None = None  # [s]
+        self._stamp: int | None = None
+        self.missing = 0  # plans in a row without a goal
+
+    @property
+    def last(self) -> Goal | None:
+        return self._goal
+
+    def update(self, time: float, pose: Pose, plan: Plan | None) -> None:
+        if plan is None:
+            return
+        if plan.stamp != self._stamp:
+            self._stamp = plan.stamp
+            self.missing = 0 if plan.goal is not None else self.missing + 1
+            if not _same(plan.goal, self._goal):
+                self._since, self._near_since = time, None
+            self._goal = plan.goal
+        goal = self._goal
+        if goal is None or goal.kind is GoalKind.ROCK:
+            return
+        x, y = plan.way.points[-1]  # where to look at it from
+        if math.hypot(x - pose.x, y - pose.y) > AT_GOAL:
+            self._near_since = None
+        elif self._near_since is None:
+            self._near_since = time
+        lingered = self._near_since is not None and time - self._near_since > LINGER
+        if lingered or time - self._since > OUT_OF_REACH:
+            self._visited.append((goal.x, goal.y, time + FORGET))
+            self._since, self._near_since = time, None
+
+    def visited(self, time: float) -> NDArray[np.float64]:
+        """Places (n, 2) [m] not to go to now."""
+        self._visited = [entry for entry in self._visited if entry[2] > time]
+        return np.array([entry[:2] for entry in self._visited], float).reshape(-1, 2)
+
+
+def _same(a: Goal | None, b: Goal | None) -> bool:
+    if a is None or b is None or a.kind is not b.kind:
+        return False
+    return math.hypot(a.x - b.x, a.y - b.y) < SAME

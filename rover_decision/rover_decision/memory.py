@@ -1,0 +1,126 @@
+"""What a mission remembers from frame to frame."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from rover_common.dataflow import GridMap
+from rover_common.geometry import Pose
+from rover_common.vehicle import ARM_FORWARD
+from rover_decision.config import DecisionConfig
+from rover_decision.crumbs import Crumbs
+from rover_decision.dataflow import Progress, Snapshot
+from rover_decision.goals import GoalMemory
+from rover_decision.observers import CircleMonitor, Odometer, ProgressMonitor, SearchedGround
+from rover_decision.planning.costmap import Blocked
+from rover_decision.planning.dataflow import PlanRequest
+from rover_decision.planning.desk import MakeRequest
+from rover_decision.recovery import SafePoses
+from rover_decision.rocks import RockMemory, Target
+
+SEARCH_PERIOD = 0.2  # [s] between two looks at what was searched
+
+
+class Memory:
+    """Updated once per frame; from then on the same until the next."""
+
+    def __init__(self, config: DecisionConfig, snapshot: Snapshot) -> None:
+        pose = snapshot.vehicle.pose
+        self._stuck_seconds = config.stuck_seconds
+        self.start_time = snapshot.time
+        self.home = (pose.x, pose.y)
+        self.samples_total = snapshot.vehicle.sample_count
+        self._sample_count = self.samples_total
+        self.progress = ProgressMonitor(config.stuck_seconds)
+        self.circle = CircleMonitor()
+        self.odometer = Odometer()
+        self.rocks = RockMemory(config.retry_after)
+        self.goals = GoalMemory()
+        self.safe_poses = SafePoses(config.tilt_limit)
+        self.crumbs = Crumbs()
+        self.blocked: tuple[Blocked, ...] = ()
+        self.recoveries = 0
+        self._searched = SearchedGround()
+        self._searched_at = -math.inf  # [s]
+        self._explored = 0.0
+
+    def update(self, snapshot: Snapshot, on_the_way_home: bool) -> None:
+        vehicle, time = snapshot.vehicle, snapshot.time
+        self.odometer.update(vehicle.pose)
+        self.progress.update(time, vehicle.pose)
+        self.safe_poses.update(vehicle.pose)
+        if not on_the_way_home:
+            self.crumbs.drop(vehicle.pose)
+            self.goals.update(time, vehicle.pose, snapshot.plan)
+        if time - self._searched_at >= SEARCH_PERIOD:
+            self._searched_at = time
+            self._searched.update(vehicle.pose, snapshot.scan)
+        if vehicle.sample_count < self._sample_count:
+            pose = vehicle.pose
+            self.rocks.collect(
+                pose.x + ARM_FORWARD * math.cos(pose.yaw), pose.y + ARM_FORWARD * math.sin(pose.yaw)
+            )
+        self._sample_count = vehicle.sample_count
+        self.blocked = tuple(place for place in self.blocked if place.until > time)
+        if snapshot.plan is not None:
+            self._explored = snapshot.plan.explored
+
+    def block(self, pose: Pose, ahead: float, radius: float, until: float) -> None:
+        """Remember a place [m] ahead of a pose as impassable until a time [s]."""
+        x = pose.x + ahead * math.cos(pose.yaw)
+        y = pose.y + ahead * math.sin(pose.yaw)
+        self.blocked = (*self.blocked, Blocked(x, y, radius, until))
+
+    def target(self, snapshot: Snapshot) -> Target | None:
+        """The nearest rock worth going for."""
+        if self.all_collected(snapshot):
+            return None
+        return self.rocks.nearest(snapshot.rocks, snapshot.vehicle.pose, snapshot.time)
+
+    def all_collected(self, snapshot: Snapshot) -> bool:
+        return self.samples_total > 0 and snapshot.vehicle.sample_count == 0
+
+    def elapsed(self, snapshot: Snapshot) -> float:
+        return snapshot.time - self.start_time
+
+    def home_distance(self, pose: Pose) -> float:
+        return math.hypot(pose.x - self.home[0], pose.y - self.home[1])
+
+    def request(self, snapshot: Snapshot, home_by_crumbs: bool) -> MakeRequest:
+        """What a plan is to be made of, as things stand at this frame; the map comes later."""
+        vehicle, time = snapshot.vehicle, snapshot.time
+        collected = self.all_collected(snapshot)
+        rocks = () if collected else self.rocks.worth_going(snapshot.rocks, time)
+        make = partial(
+            PlanRequest,
+            stamp=vehicle.stamp,
+            pose=vehicle.pose,
+            home=self.home,
+            trail=self.crumbs.points,
+            rocks=rocks,
+            blocked=self.blocked,
+            visited=self.goals.visited(time),
+            searched=self._searched.so_far(),
+            search=not collected and vehicle.sample_count > len(rocks),
+            last_goal=self.goals.last,
+            home_by_crumbs=home_by_crumbs,
+        )
+
+        def with_map(grid: GridMap) -> PlanRequest:
+            return make(grid=grid)
+
+        return with_map
+
+    def report(self, snapshot: Snapshot) -> Progress:
+        return Progress(
+            elapsed=self.elapsed(snapshot),
+            explored=self._explored,
+            samples_total=self.samples_total,
+            samples_collected=max(0, self.samples_total - snapshot.vehicle.sample_count),
+            rocks_known=self.rocks.left(snapshot.rocks),
+            rocks_given_up=self.rocks.given_up,
+            home_distance=self.home_distance(snapshot.vehicle.pose),
+            distance=self.odometer.distance,
+            recoveries=self.recoveries,
+        )

@@ -1,0 +1,1 @@
+"""Where to go: the map, what is left to see on it, and the quickest tour over it. No ROS here."""

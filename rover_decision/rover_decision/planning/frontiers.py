@@ -1,0 +1,47 @@
+"""Frontiers: where known free ground borders on the unknown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from rover_decision.planning.costmap import Costmap
+
+SMALLEST = 4  # [cells] a shorter border is a seam between two looks, not a way on
+SQUARE = np.ones((3, 3), np.uint8)
+
+
+@dataclass(frozen=True)
+class Frontier:
+    """One connected border."""
+
+    x: NDArray[np.float64]  # (n,) [m] map frame, its cells
+    y: NDArray[np.float64]  # (n,) [m]
+
+    @property
+    def length(self) -> int:
+        """[cells]"""
+        return len(self.x)
+
+
+def find_frontiers(costmap: Costmap) -> list[Frontier]:
+    """All borders of some length, the longest first."""
+    # Unknown slivers of less than three cells vanish: they are grazed walls.
+    unknown = cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE)
+    border = costmap.free & (cv2.dilate(unknown, SQUARE) > 0)
+    labels, count = ndimage.label(border, structure=SQUARE)
+    if count == 0:
+        return []
+    rows, cols = np.nonzero(border)
+    order = np.argsort(labels[rows, cols], kind="stable")
+    ends = np.cumsum(np.bincount(labels[rows, cols], minlength=count + 1)[1:])
+    x, y = costmap.geometry.center_of(rows[order], cols[order])
+    frontiers = [
+        Frontier(*part) for part in zip(np.split(x, ends[:-1]), np.split(y, ends[:-1]), strict=True)
+    ]
+    large = [frontier for frontier in frontiers if frontier.length >= SMALLEST]
+    return sorted(large, key=lambda frontier: -frontier.length)

@@ -1,0 +1,181 @@
+"""One plan: from the map, the rocks and the pose to the next goal and the way there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.geometry import Pose, wrap_angle
+from rover_common.vehicle import MAX_STEERING, TURN_IN_PLACE_RATE
+from rover_decision.crumbs import way_over_crumbs
+from rover_decision.planning.costmap import Costmap
+from rover_decision.planning.dataflow import (
+    NO_WAY,
+    Goal,
+    GoalKind,
+    Plan,
+    PlanRequest,
+    Way,
+)
+from rover_decision.planning.frontiers import Frontier, find_frontiers
+from rover_decision.planning.roadmap import Roadmap, Ways
+from rover_decision.planning.tour import MOST_STOPS, tour_costs
+
+REACH_FROM_BODY = 3.0  # [m] to the nearest drivable cell, from where the rover or its home is
+REACH_OF_FRONTIER = 10.0  # [m] from the place to look at it from
+REACH_OF_ROCK = 1.8  # [m] from where the approach by sight takes over
+VISITED_RADIUS = 1.5  # [m] a frontier this near to a place given up is that one
+SAME_GOAL = 4.0  # [m] a goal this near to the last one is the same, seen anew
+LOYALTY = 4.0  # [s] that another goal must save before the rover turns to it
+TURN_SECONDS = 2.0  # [s] to stop for a turn on the spot, and to gather speed again
+SHARP = math.radians(60.0)  # a turn that is made on the spot
+SPEED_PER_CLEARANCE = 1.6  # [1/s] of a way's speed limit
+SLOWEST = 0.8  # [m/s] limit in the narrowest place
+UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
+
+
+@dataclass(frozen=True)
+class _Stop:
+    goal: Goal
+    node: int
+
+
+class Planner:
+    """Stateless: the same request gives the same plan."""
+
+    def __init__(self, explorer: str) -> None:
+        """explorer: tour (all stops in the best order) or frontier (the nearest)."""
+        self._whole_tour = explorer != "frontier"
+
+    def plan(self, request: PlanRequest) -> Plan:
+        """The plan for a request; its goal is None when nothing is left to do out there."""
+        pose = request.pose
+        costmap = Costmap.of(request.grid, request.trail, (pose.x, pose.y), request.blocked)
+        roadmap = Roadmap(costmap)
+        frontiers = [f for f in find_frontiers(costmap) if not _visited(f, request.visited)]
+        start = _node_near(roadmap, (pose.x, pose.y), REACH_FROM_BODY)
+        if start < 0:
+            return Plan(request.stamp, None, NO_WAY, NO_WAY, math.inf, _centers(frontiers), 0.0)
+        roadmap.only_reachable_from(start)
+        home = _node_near(roadmap, request.home, REACH_FROM_BODY)
+        ways = roadmap.ways_from([start])
+        stops = self._stops(request, roadmap, ways, frontiers)
+        goal_way, goal = NO_WAY, None
+        if stops:
+            best = self._choose(request, roadmap, ways, stops, home)
+            goal, goal_way = best.goal, _limited(roadmap.way(ways, 0, best.node), costmap)
+        home_way, home_seconds = NO_WAY, math.inf
+        if home >= 0 and np.isfinite(ways.seconds[0, home]):
+            home_way = _limited(roadmap.way(ways, 0, home), costmap)
+            home_seconds = float(ways.seconds[0, home])
+        if request.home_by_crumbs:
+            home_way = _limited(way_over_crumbs(request.trail, (pose.x, pose.y), costmap), costmap)
+        explored = _explored(costmap, frontiers)
+        return Plan(
+            request.stamp, goal, goal_way, home_way, home_seconds, _centers(frontiers), explored
+        )
+
+    def _stops(
+        self, request: PlanRequest, roadmap: Roadmap, ways: Ways, frontiers: list[Frontier]
+    ) -> list[_Stop]:
+        """The nearest of what is left: rocks and frontiers, or else ground not searched."""
+        seconds = ways.seconds[0]
+        found: list[_Stop] = []
+        for rock in request.rocks:
+            node = _node_near(roadmap, (rock.x, rock.y), REACH_OF_ROCK)
+            found.append(_Stop(Goal(GoalKind.ROCK, rock.x, rock.y, rock.id), node))
+        for frontier in frontiers:
+            nodes = roadmap.nodes_near(frontier.x, frontier.y, REACH_OF_FRONTIER)
+            cost = np.where(nodes >= 0, seconds[nodes], np.inf)
+            nearest = int(np.argmin(cost))
+            x, y = float(frontier.x[nearest]), float(frontier.y[nearest])
+            found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest])))
+        found = [stop for stop in found if stop.node >= 0 and np.isfinite(seconds[stop.node])]
+        if not found and request.search:
+            found = _unsearched(request, roadmap, seconds)
+        return sorted(found, key=lambda stop: float(seconds[stop.node]))[:MOST_STOPS]
+
+    def _choose(
+        self, request: PlanRequest, roadmap: Roadmap, ways: Ways, stops: list[_Stop], home: int
+    ) -> _Stop:
+        nodes = [stop.node for stop in stops]
+        first = ways.seconds[0, nodes] + [
+            _turn_seconds(request.pose, roadmap.way(ways, 0, node)) for node in nodes
+        ]
+        if self._whole_tour:
+            onward = roadmap.ways_from(nodes).seconds
+            last = onward[:, home] if home >= 0 else np.zeros(len(stops))
+            cost = tour_costs(first, onward[:, nodes], np.where(np.isfinite(last), last, 0.0))
+        else:
+            cost = first
+        cost = cost - LOYALTY * np.array([_same(stop.goal, request.last_goal) for stop in stops])
+        return stops[int(np.argmin(cost))]
+
+
+def _node_near(roadmap: Roadmap, point: tuple[float, float], reach: float) -> int:
+    """The node nearest to a point [m]; -1 where none is within `reach` [m]."""
+    return int(roadmap.nodes_near(np.array([point[0]]), np.array([point[1]]), reach)[0])
+
+
+def _unsearched(
+    request: PlanRequest, roadmap: Roadmap, seconds: NDArray[np.float64]
+) -> list[_Stop]:
+    """The nearest drivable place whose surroundings were not looked at from near."""
+    if request.searched is None or len(roadmap) == 0:
+        return []
+    row, col = request.searched.geometry.cell_of(roadmap.x, roadmap.y)
+    left = ~request.searched.mask[row, col]
+    for x, y in request.visited:
+        left &= np.hypot(roadmap.x - x, roadmap.y - y) > VISITED_RADIUS
+    cost = np.where(left, seconds, np.inf)
+    node = int(np.argmin(cost))
+    if not np.isfinite(cost[node]):
+        return []
+    goal = Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node]))
+    return [_Stop(goal, node)]
+
+
+def _visited(frontier: Frontier, visited: NDArray[np.float64]) -> bool:
+    """Whether most of its cells are near places already visited in vain."""
+    if len(visited) == 0:
+        return False
+    away = np.hypot(frontier.x[:, None] - visited[:, 0], frontier.y[:, None] - visited[:, 1])
+    return bool(np.mean(away.min(axis=1) < VISITED_RADIUS) > 0.5)
+
+
+def _turn_seconds(pose: Pose, way: NDArray[np.float64]) -> float:
+    """To turn towards a way, when that takes a turn on the spot."""
+    ahead = way[min(len(way) - 1, 5)]
+    if math.hypot(ahead[0] - pose.x, ahead[1] - pose.y) < 0.5:
+        return 0.0
+    angle = abs(wrap_angle(math.atan2(ahead[1] - pose.y, ahead[0] - pose.x) - pose.yaw))
+    return angle / (TURN_IN_PLACE_RATE * MAX_STEERING) + (TURN_SECONDS if angle > SHARP else 0.0)
+
+
+def _same(goal: Goal, last: Goal | None) -> bool:
+    if last is None or goal.kind is not last.kind:
+        return False
+    return math.hypot(goal.x - last.x, goal.y - last.y) < SAME_GOAL
+
+
+def _limited(points: NDArray[np.float64], costmap: Costmap) -> Way:
+    """A way with the speed that its clearance allows."""
+    row, col = costmap.geometry.cell_of(points[:, 0], points[:, 1])
+    clearance = costmap.clearance[row, col].astype(np.float64)
+    return Way(points, np.maximum(SLOWEST, SPEED_PER_CLEARANCE * clearance))
+
+
+def _centers(frontiers: Sequence[Frontier]) -> NDArray[np.float64]:
+    return np.array([(f.x.mean(), f.y.mean()) for f in frontiers], float).reshape(-1, 2)
+
+
+def _explored(costmap: Costmap, frontiers: list[Frontier]) -> float:
+    """Share of the ground that is known, guessing that each frontier opens on some more."""
+    resolution = costmap.geometry.resolution
+    known = float(np.count_nonzero(costmap.free)) * resolution**2
+    beyond = sum(f.length for f in frontiers) * resolution * UNKNOWN_DEPTH
+    return known / (known + beyond) if known else 0.0

@@ -1,0 +1,122 @@
+"""Travel times over the map: a graph of drivable cells, and shortest ways through it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+
+from rover_common.grid import GridGeometry
+from rover_decision.planning.costmap import Costmap
+
+COARSE = 2  # cells of the map per cell of the graph, in both directions
+PADDING = 0.55  # [m] from obstacles: half the rover's width, and what a wheel may stray
+# Speed that a cell can be driven with: by its clearance, between crawling and cruising.
+SPEED_PER_CLEARANCE = 1.5  # [1/s]
+SLOWEST, FASTEST = 0.5, 2.5  # [m/s]
+SMOOTHING = 2.0  # [cells] standard deviation of the filter over a way's points
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Shortest ways from some nodes to all others."""
+
+    seconds: NDArray[np.float64]  # (sources, nodes), inf where there is no way
+    previous: NDArray[np.int32]  # (sources, nodes)
+
+
+class Roadmap:
+    """Nodes are drivable cells of the coarse grid."""
+
+    def __init__(self, costmap: Costmap) -> None:
+        fine = costmap.geometry
+        self.geometry = GridGeometry(
+            fine.resolution * COARSE,
+            fine.rows // COARSE,
+            fine.cols // COARSE,
+            fine.origin_x,
+            fine.origin_y,
+        )
+        shape = (self.geometry.rows, COARSE, self.geometry.cols, COARSE)
+        clearance = costmap.clearance.reshape(shape).min(axis=(1, 3))
+        self.drivable = costmap.free.reshape(shape).all(axis=(1, 3)) & (clearance >= PADDING)
+        pace = 1.0 / np.clip(SPEED_PER_CLEARANCE * clearance, SLOWEST, FASTEST)  # [s/m]
+        self._numbers = np.full(self.drivable.shape, -1, np.int32)
+        self._numbers[self.drivable] = np.arange(np.count_nonzero(self.drivable))
+        rows, cols = np.nonzero(self.drivable)
+        self.x, self.y = self.geometry.center_of(rows, cols)
+        self._graph = self._links(pace)
+        self._nearest = _nearest_true(self.drivable)
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def nodes_near(
+        self, x: NDArray[np.float64], y: NDArray[np.float64], reach: float
+    ) -> NDArray[np.int32]:
+        """The node nearest to each point (n,) [m]; -1 where none is within `reach` [m]."""
+        if len(self) == 0:
+            return np.full(len(x), -1, np.int32)
+        row, col = self.geometry.cell_of(x, y)
+        row = np.clip(row, 0, self.geometry.rows - 1)
+        col = np.clip(col, 0, self.geometry.cols - 1)
+        node = self._numbers[self._nearest[0][row, col], self._nearest[1][row, col]]
+        away = np.hypot(self.x[node] - x, self.y[node] - y)
+        return np.where(away <= reach, node, -1).astype(np.int32)
+
+    def only_reachable_from(self, node: int) -> None:
+        """From now on, `nodes_near` gives nodes that can be driven to from this one."""
+        regions, _ = ndimage.label(self.drivable, structure=np.ones((3, 3)))
+        row, col = self.geometry.cell_of(self.x[node], self.y[node])
+        self._nearest = _nearest_true(regions == regions[row, col])
+
+    def ways_from(self, sources: list[int]) -> Ways:
+        """Shortest ways from each of the nodes."""
+        seconds, previous = dijkstra(
+            self._graph, indices=sources, return_predecessors=True, directed=True
+        )
+        return Ways(seconds, previous)
+
+    def way(self, ways: Ways, source: int, target: int) -> NDArray[np.float64]:
+        """Points (n, 2) [m] from source number `source` of the ways to a node, smoothed."""
+        nodes = [target]
+        while (before := int(ways.previous[source, nodes[-1]])) >= 0:
+            nodes.append(before)
+        points = np.stack([self.x[nodes[::-1]], self.y[nodes[::-1]]], axis=1)
+        smooth = ndimage.gaussian_filter1d(points, SMOOTHING, axis=0, mode="nearest")
+        smooth[-1] = points[-1]
+        return np.asarray(smooth)
+
+    def _links(self, pace: NDArray[np.float64]) -> csr_array:
+        """Symmetric: seconds from each node to its eight neighbours."""
+        starts, ends, seconds = [], [], []
+        rows, cols = self.drivable.shape
+        for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
+            here = (slice(0, rows - down), slice(max(0, -right), cols - max(0, right)))
+            there = (slice(down, rows), slice(max(0, right), cols + min(0, right)))
+            both = self.drivable[here] & self.drivable[there]
+            length = self.geometry.resolution * float(np.hypot(down, right))
+            starts.append(self._numbers[here][both])
+            ends.append(self._numbers[there][both])
+            seconds.append(0.5 * length * (pace[here] + pace[there])[both])
+        start, end, cost = (np.concatenate(parts) for parts in (starts, ends, seconds))
+        count = len(self)
+        return csr_array(
+            (
+                np.concatenate([cost, cost]),
+                (np.concatenate([start, end]), np.concatenate([end, start])),
+            ),
+            shape=(count, count),
+        )
+
+
+def _nearest_true(mask: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """Row and column (2, rows, cols) of the true cell nearest to each cell."""
+    if not mask.any():
+        return np.zeros((2, *mask.shape), np.int32)
+    indices = ndimage.distance_transform_edt(~mask, return_distances=False, return_indices=True)
+    return np.asarray(indices)

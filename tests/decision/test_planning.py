@@ -1,0 +1,221 @@
+"""Plans: frontiers, tours, ways, crumbs, and when a plan takes effect."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import threading
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rover import rock, straight_plan
+
+from rover_common.dataflow import GridMap
+from rover_common.geometry import Pose
+from rover_decision.crumbs import Crumbs, way_over_crumbs
+from rover_decision.planning.costmap import Blocked, Costmap
+from rover_decision.planning.dataflow import GoalKind, PlanRequest
+from rover_decision.planning.desk import PlanDesk
+from rover_decision.planning.planner import Planner
+from rover_decision.planning.tour import MOST_STOPS, tour_costs
+
+HERE = Pose(20.0, 20.0, 0.0)
+NOWHERE = np.empty((0, 2))
+
+
+def grid(*free: tuple[float, float, float, float], walls: bool = True) -> GridMap:
+    """A map of 60 x 60 m: free rectangles (x0, y0, x1, y1) [m], walls of 1 m around them."""
+    cells = np.full((240, 240), -1, np.int8)
+    margin = 1.0 if walls else 0.0
+    for x0, y0, x1, y1 in free:
+        rows, cols = (_cells(a - margin, b + margin) for a, b in ((y0, y1), (x0, x1)))
+        cells[rows, cols] = 100
+    for x0, y0, x1, y1 in free:
+        cells[_cells(y0, y1), _cells(x0, x1)] = 0
+    return GridMap(0.25, 0.0, 0.0, cells)
+
+
+def _cells(low: float, high: float) -> slice:
+    return slice(round(low * 4), round(high * 4))
+
+
+def opened(map_: GridMap, x0: float, y0: float, x1: float, y1: float) -> GridMap:
+    """The same map with a part of it unknown."""
+    cells = map_.cells.copy()
+    cells[_cells(y0, y1), _cells(x0, x1)] = -1
+    return GridMap(map_.resolution, 0.0, 0.0, cells)
+
+
+HALL = grid((10, 15, 40, 25))
+OPEN_EAST = opened(HALL, 40, 16, 41, 24)  # a door in the east wall
+
+
+def request(map_: GridMap, **changes) -> PlanRequest:
+    fields = {
+        "stamp": 7, "grid": map_, "pose": HERE, "home": (12.0, 20.0), "trail": NOWHERE,
+        "rocks": (), "blocked": (), "visited": NOWHERE, "searched": None, "search": False,
+        "last_goal": None,
+    }  # fmt: skip
+    return PlanRequest(**(fields | changes))
+
+
+def plan(map_: GridMap, explorer: str = "tour", **changes):
+    return Planner(explorer).plan(request(map_, **changes))
+
+
+def test_a_closed_room_leaves_nothing_to_do():
+    made = plan(HALL)
+    assert made.goal is None
+    assert made.explored == 1.0
+    assert np.hypot(*(made.home_way.points[-1] - (12.0, 20.0))) < 0.5
+
+
+def test_a_door_into_the_unknown_is_the_goal():
+    made = plan(OPEN_EAST)
+    assert made.goal is not None
+    assert made.goal.kind is GoalKind.FRONTIER
+    assert made.goal.x == pytest.approx(40, abs=0.5)
+    assert len(made.frontiers) == 1
+    assert np.all(np.diff(made.way.points[:, 0]) >= 0)  # straight to it
+    assert made.explored < 1.0
+
+
+def test_places_visited_in_vain_are_no_goals():
+    made = plan(OPEN_EAST, visited=np.array([[39.9, y] for y in np.arange(16, 25)]))
+    assert made.goal is None
+
+
+def test_blocked_places_are_driven_around():
+    middle = Blocked(30.0, 20.0, 2.0)
+    way = plan(OPEN_EAST, blocked=(middle,)).way.points
+    assert np.hypot(way[:, 0] - 30, way[:, 1] - 20).min() > 2.0
+
+
+def test_ground_behind_a_gap_too_narrow_is_looked_at_from_before_it():
+    narrow = grid((10, 15, 30, 25), (30, 19.75, 34, 20.25), (34, 15, 37, 25))
+    made = plan(opened(narrow, 37, 16, 38, 24))
+    assert made.goal is not None
+    assert made.way.points[-1, 0] < 31.0
+
+
+def test_a_rock_on_the_way_comes_first_and_one_off_the_way_later():
+    near = plan(OPEN_EAST, rocks=(rock(28.0, 20.0, 3),))
+    assert (near.goal.kind, near.goal.rock_id) == (GoalKind.ROCK, 3)
+    behind = plan(OPEN_EAST, rocks=(rock(12.0, 20.0, 4),))  # at home: on the way back
+    assert behind.goal.kind is GoalKind.FRONTIER
+    assert plan(HALL, rocks=(rock(50.0, 50.0),)).goal is None  # out of reach
+
+
+def test_the_nearest_frontier_or_the_shortest_tour():
+    """A short arm to the west, where home is, and a long one to the east."""
+    two = opened(opened(HALL, 40, 16, 41, 24), 9, 16, 10, 24)
+    at = Pose(23.0, 20.0, math.pi)
+    assert plan(two, "frontier", pose=at).goal.x < 15
+    assert plan(two, "tour", pose=at, home=(10.5, 20.0)).goal.x > 35
+
+
+def test_the_unsearched_is_the_goal_when_rocks_are_missing():
+    from rover_decision.observers import SearchedGround
+
+    searched = SearchedGround().so_far()
+    assert plan(HALL, search=True, searched=searched).goal.kind is GoalKind.SEARCH
+    assert plan(HALL, search=False, searched=searched).goal is None
+
+
+def test_on_an_empty_map_it_looks_around_from_where_it_stands():
+    made = plan(GridMap(0.25, 0.0, 0.0, np.full((240, 240), -1, np.int8)))
+    assert made.goal is not None
+    assert np.hypot(made.goal.x - HERE.x, made.goal.y - HERE.y) < 2.0
+    assert len(made.home_way) == 0
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(1, 6), st.integers(0, 10_000))
+def test_tours_are_the_shortest(count, seed):
+    random = np.random.default_rng(seed)
+    first, last = random.uniform(1, 50, count), random.uniform(1, 50, count)
+    between = random.uniform(1, 50, (count, count))
+    costs = tour_costs(first, between, last)
+    for start in range(count):
+        others = [stop for stop in range(count) if stop != start]
+        orders = [(start, *rest) for rest in itertools.permutations(others)]
+        onward = [sum(between[a, b] for a, b in itertools.pairwise(order)) for order in orders]
+        best = min(
+            first[start] + seconds + last[order[-1]]
+            for order, seconds in zip(orders, onward, strict=True)
+        )
+        assert costs[start] == pytest.approx(best)
+
+
+def test_too_many_stops_are_refused():
+    count = MOST_STOPS + 1
+    with pytest.raises(ValueError, match="at most"):
+        tour_costs(np.ones(count), np.ones((count, count)), np.ones(count))
+
+
+def test_crumbs_cut_loops_out():
+    crumbs = Crumbs()
+    for angle in np.linspace(0, 2 * math.pi, 60):  # a loop that comes back near its beginning
+        crumbs.drop(Pose(20 + 5 * math.sin(angle), 20 - 5 * math.cos(angle), 0))
+    costmap = Costmap.of(HALL, crumbs.points, (20, 15))
+    way = way_over_crumbs(crumbs.points, crumbs.points[-1], costmap)
+    assert len(way) < 6
+    assert np.hypot(*(way[-1] - crumbs.points[0])) < 0.1
+
+
+def test_crumbs_do_not_cut_through_walls():
+    around = grid((10, 10, 40, 14), (36, 10, 40, 30), (10, 26, 40, 30))
+    trail = np.array([(x, 12.0) for x in np.arange(12, 38)] + [(38.0, y) for y in range(12, 28)])
+    trail = np.concatenate([trail, [(x, 28.0) for x in np.arange(38, 12, -1.0)]])
+    way = way_over_crumbs(trail, (13.0, 28.0), Costmap.of(around, trail, (13.0, 28.0)))
+    assert np.hypot(*np.diff(way, axis=0).T).sum() > 55
+    assert way[:, 0].max() > 35
+
+
+class TestDesk:
+    """Plans take effect at a defined frame."""
+
+    @pytest.fixture
+    def gate(self):
+        gate = threading.Event()
+        gate.set()
+        return gate
+
+    @pytest.fixture(params=[True, False], ids=["lockstep", "live"])
+    def desk(self, request, gate):
+        def make(asked: PlanRequest):
+            assert gate.wait(10)
+            return straight_plan(stamp=asked.stamp)
+
+        desk = PlanDesk(make, delay=0.3, lockstep=request.param)
+        self.lockstep = request.param
+        yield desk
+        gate.set()
+        desk.close()
+
+    def ask(self, desk: PlanDesk, stamp: int) -> None:
+        desk.ask(stamp, lambda map_: request(map_, stamp=stamp))
+
+    def test_not_before_its_frame(self, desk, gate):
+        self.ask(desk, 1_000_000_000)
+        desk.give_map(1_000_000_000, HALL)
+        assert desk.plan_at(1_200_000_000) is None
+        desk.close()  # it is made by now
+        assert desk.plan_at(1_300_000_000).stamp == 1_000_000_000
+
+    def test_the_map_may_come_before_the_frame_asks(self, desk, gate):
+        desk.give_map(1_000_000_000, HALL)
+        self.ask(desk, 1_000_000_000)
+        assert not desk.must_wait(2_000_000_000)
+
+    def test_only_lockstep_waits(self, desk, gate):
+        self.ask(desk, 1_000_000_000)
+        assert desk.must_wait(1_400_000_000) == self.lockstep
+        assert not desk.must_wait(1_200_000_000)
+        gate.clear()
+        desk.give_map(1_000_000_000, HALL)
+        assert not desk.must_wait(1_400_000_000)
+        if not self.lockstep:
+            assert desk.plan_at(1_400_000_000) is None  # not made yet: go on with what there is
