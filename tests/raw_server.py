@@ -110,12 +110,12 @@ class RawServer:
 
     def __init__(self, port: int = 0) -> None:
         self._listener = socket.create_server(("127.0.0.1", port))
-        self._listener.settimeout(WAIT)
         self.port = int(self._listener.getsockname()[1])
         self._wires: list[Wire] = []
 
-    def accept(self) -> Wire:
-        """The next connection."""
+    def accept(self, timeout: float = WAIT) -> Wire:
+        """The next connection, within `timeout` [s]."""
+        self._listener.settimeout(timeout)
         wire = Wire(self._listener.accept()[0])
         self._wires.append(wire)
         return wire
