@@ -35,7 +35,7 @@ class Stop:
 
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit code: 0 after a signal or the time limit, 1 for a bad world."""
-    options = _parser().parse_args(arguments)
+    options = option_parser().parse_args(arguments)
     stop = Stop()
     try:
         world = World.load(options.world) if options.world else generate_world(options.seed)
@@ -58,7 +58,8 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def _parser() -> argparse.ArgumentParser:
+def option_parser() -> argparse.ArgumentParser:
+    """Of `rover sim`; the README lists them all."""
     parser = argparse.ArgumentParser(prog="rover sim", description=__doc__)
     add = parser.add_argument
     add("--host", default="127.0.0.1", help="of the server (default: %(default)s)")
