@@ -36,6 +36,13 @@ class Arm:
     def picking_up(self) -> bool:
         return self._left > 0.0 or self.frozen
 
+    @property
+    def lifted(self) -> Point | None:
+        """Where the sample lay that the gripper has taken from the ground."""
+        if self._held is None or PICKUP_SECONDS - self._left <= GRIPPED:
+            return None
+        return self._held.found
+
     def near_sample(self, pose: Pose) -> bool:
         if self.picking_up:  # not looked at again before the sequence ends
             return self._held is not None

@@ -49,14 +49,27 @@ class Renderer:
     """Renders one world; geometry, shadows and colours of the ground are made once."""
 
     def __init__(self, world: World, terrain: Terrain) -> None:
-        self._scene = rtcore_scene.EmbreeScene()
-        solids = [terrain.triangles()]
-        solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
-        self._meshes = [TriangleMesh(self._scene, *solid) for solid in solids]
+        self._samples = world.samples.copy()
+        self._solids = [terrain.triangles()]
+        self._solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
+        self._build_scene()
         self._colors = self._paint(terrain)
         rays = ROVER_CAMERA.rays().reshape(-1, 3)
         self._rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
         self._grain = _grain()
+
+    def hide_sample(self, x: float, y: float) -> None:
+        """The sample at this place [m], if one is there, is gone; takes half a second."""
+        for index in np.flatnonzero((self._samples == (x, y)).all(axis=1)):
+            self._samples[index] = np.nan
+            vertices, triangles = self._solids[index + 1]
+            # Below all ground, because the meshes are known by their order.
+            self._solids[index + 1] = (vertices - np.array([0, 0, 1000], np.float32), triangles)
+            self._build_scene()
+
+    def _build_scene(self) -> None:
+        self._scene = rtcore_scene.EmbreeScene()
+        self._meshes = [TriangleMesh(self._scene, *solid) for solid in self._solids]
 
     def render(self, pose: Pose, ground: float = 0.0) -> Rendering:
         """What the camera sees at a pose on ground of this height [m]."""

@@ -56,6 +56,8 @@ class Simulation:
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)
+        if self._arm.lifted is not None:
+            self._renderer.hide_sample(*self._arm.lifted)
         self.time += self._frame_steps * STEP
         self._image = self._next_image
         self._next_image = self._photograph()

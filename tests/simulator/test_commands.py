@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import math
 
+import cv2
 import numpy as np
 import pytest
 
@@ -252,3 +254,23 @@ def test_a_fixed_turn_that_cannot_be_parsed_loses_its_answer(shared, bad):
     assert shared.handle("data", GOOD)
     assert held(shared) == HELD[3]
     assert shared.pose.yaw == pytest.approx(yaw, abs=0.2)
+
+
+def yellow_pixels(simulation: Simulation) -> int:
+    data = np.frombuffer(base64.b64decode(simulation.telemetry()["image"]), np.uint8)
+    blue, _, red = cv2.split(cv2.imdecode(data, cv2.IMREAD_COLOR).astype(int))
+    return int((red - blue > 60).sum())
+
+
+def test_a_sample_that_is_lifted_leaves_the_picture():
+    simulation = simulation_of((101.2, 100.0), (104.0, 101.0))
+    simulation.advance()
+    both = yellow_pixels(simulation)
+    assert both > 300
+    simulation.handle("pickup", {})
+    for _ in range(int(2.5 / FRAME)):
+        simulation.advance()
+    assert yellow_pixels(simulation) == both
+    for _ in range(2):  # the picture is one frame older
+        simulation.advance()
+    assert 5 < yellow_pixels(simulation) < both / 5
