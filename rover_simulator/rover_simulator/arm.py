@@ -3,19 +3,32 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
-from rover_common.geometry import Pose
+from rover_common.geometry import Pose, wrap_angle
 from rover_common.vehicle import ARM_FORWARD, PICKUP_SECONDS
 
+Point = tuple[float, float]  # x, y [m] map frame
+
 REACH = 0.57  # [m] around the point ahead, by the sample's size 0.55 to 0.60
+
+# The simulator's phases [s]: turn, reach, lift, turn back, place, reset. The gripper holds the
+# sample from the end of the reach to the end of the place; then it lies on the flatbed.
+PHASES = (1.0, 1.5, 1.5, 1.5, 1.5, 3.0)
+GRIPPED, LIFTED, TURNED_BACK, PLACED = 2.5, 4.0, 5.5, 7.0  # [s] ends of the phases between
+
+SHOULDER_FORWARD = ARM_FORWARD - 0.5  # [m] the reach begins half a metre ahead of the shoulder
+# Where the sample goes is not published; the lengths between are chosen, not measured.
+CARRIED_RADIUS = 0.4  # [m] from the shoulder while the arm turns back
+FLATBED_RADIUS = SHOULDER_FORWARD - 0.061  # [m] behind the shoulder: the middle of the flatbed
 
 
 class Arm:
     """Holds the samples not yet collected, and the sequence that runs."""
 
-    def __init__(self, samples: list[tuple[float, float]]) -> None:
-        self.samples = samples
-        self._target: tuple[float, float] | None = None
+    def __init__(self, samples: list[Point]) -> None:
+        self.samples = samples  # as the telemetry lists them; the one that is held moves
+        self._held: _Held | None = None
         self._left = 0.0  # [s] of the sequence
         self.frozen = False  # a pickup without a sample near never ends
 
@@ -23,30 +36,90 @@ class Arm:
     def picking_up(self) -> bool:
         return self._left > 0.0 or self.frozen
 
+    @property
+    def lifted(self) -> Point | None:
+        """Where the sample lay that the gripper has taken from the ground."""
+        if self._held is None or PICKUP_SECONDS - self._left <= GRIPPED:
+            return None
+        return self._held.found
+
     def near_sample(self, pose: Pose) -> bool:
-        if self.frozen:
-            return False
-        return self._target is not None or self._in_reach(pose) is not None
+        if self.picking_up:  # not looked at again before the sequence ends
+            return self._held is not None
+        return self._in_reach(pose) is not None
 
     def start(self, pose: Pose) -> None:
         """Begin the sequence, as a pickup command does, whether a sample is near or not."""
         if self.picking_up:
             return
-        self._target = self._in_reach(pose)
-        self.frozen = self._target is None
-        self._left = 0.0 if self.frozen else PICKUP_SECONDS
+        index = self._in_reach(pose)
+        self.frozen = index is None
+        if index is not None:
+            self._held = _Held.at(self.samples[index], pose, index)
+            self._left = PICKUP_SECONDS
 
     def advance(self, seconds: float) -> None:
         """Time goes on; the sample leaves the lists one frame before the sequence ends."""
         if self._left <= 0.0:
             return
         self._left = round(self._left - seconds, 6)  # so that whole frames add up
-        if self._left <= seconds and self._target is not None:
-            self.samples.remove(self._target)
-            self._target = None
+        if self._held is None:
+            return
+        if self._left <= seconds:
+            del self.samples[self._held.index]
+            self._held = None
+        else:
+            self.samples[self._held.index] = self._held.position(PICKUP_SECONDS - self._left)
 
-    def _in_reach(self, pose: Pose) -> tuple[float, float] | None:
+    def _in_reach(self, pose: Pose) -> int | None:
         x = pose.x + ARM_FORWARD * math.cos(pose.yaw)
         y = pose.y + ARM_FORWARD * math.sin(pose.yaw)
-        near = (s for s in self.samples if math.hypot(s[0] - x, s[1] - y) < REACH)
+        near = (
+            index
+            for index, sample in enumerate(self.samples)
+            if math.hypot(sample[0] - x, sample[1] - y) < REACH
+        )
         return next(near, None)
+
+
+@dataclass(frozen=True)
+class _Held:
+    """The sample of the sequence, and its way around the shoulder of a standing rover."""
+
+    index: int  # in the list of samples
+    found: Point
+    shoulder: Point
+    radius: float  # [m] from the shoulder, where it was found
+    bearing: float  # [rad] from the rover's forward, where it was found
+    yaw: float  # [rad] of the rover
+
+    @classmethod
+    def at(cls, found: Point, pose: Pose, index: int) -> _Held:
+        shoulder = (
+            pose.x + SHOULDER_FORWARD * math.cos(pose.yaw),
+            pose.y + SHOULDER_FORWARD * math.sin(pose.yaw),
+        )
+        dx, dy = found[0] - shoulder[0], found[1] - shoulder[1]
+        bearing = wrap_angle(math.atan2(dy, dx) - pose.yaw)
+        return cls(index, found, shoulder, math.hypot(dx, dy), bearing, pose.yaw)
+
+    def position(self, elapsed: float) -> Point:
+        """Where it is, `elapsed` [s] after the sequence began."""
+        if elapsed <= GRIPPED:
+            return self.found
+        lifting = _share(elapsed, GRIPPED, LIFTED)
+        turning = _share(elapsed, LIFTED, TURNED_BACK)
+        placing = _share(elapsed, TURNED_BACK, PLACED)
+        radius = self.radius + lifting * (CARRIED_RADIUS - self.radius)
+        radius += placing * (FLATBED_RADIUS - CARRIED_RADIUS)
+        behind = math.copysign(math.pi, self.bearing)
+        angle = self.yaw + self.bearing + turning * (behind - self.bearing)
+        return (
+            self.shoulder[0] + radius * math.cos(angle),
+            self.shoulder[1] + radius * math.sin(angle),
+        )
+
+
+def _share(time: float, start: float, end: float) -> float:
+    """How much of a phase is over at this time, 0..1."""
+    return min(1.0, max(0.0, (time - start) / (end - start)))

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import signal
 import sys
-import time
 from pathlib import Path
 
 from rover_common.scoring import TruthError
+from rover_simulator.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
 from rover_simulator.simulation import Simulation
-from rover_simulator.unity_client import OPEN, ConnectionLostError, ProtocolError, UnityClient
+from rover_simulator.unity_client import UnityClient
 from rover_simulator.vehicle import STEP
 from rover_simulator.world import World, WorldError
 from rover_simulator.worldgen import generate_world, world_of_map
-
-WAIT = 0.5  # [s] between looks whether to stop
 
 
 class Stop:
@@ -36,7 +35,7 @@ class Stop:
 
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit code: 0 after a signal or the time limit, 1 for a bad world."""
-    options = _parser().parse_args(arguments)
+    options = option_parser().parse_args(arguments)
     stop = Stop()
     try:
         world = world_of(options)
@@ -45,21 +44,16 @@ def main(arguments: list[str] | None = None) -> int:
         return 1
     frame_steps = max(1, round(1.0 / (options.fps * STEP)))
     simulation = Simulation(world, options.seed, frame_steps)
-    client = UnityClient(options.host, options.port)
     progress = Progress(simulation, options.progress)
-    while not stop() and client.connect_until(stop):
-        try:
-            if options.rate == "fast":
-                _run_fast(simulation, client, stop, progress, options.time_limit)
-            else:
-                period = frame_steps * STEP / _rate(options.rate)
-                _run_timed(simulation, client, stop, progress, options.time_limit, period)
-        except (ConnectionLostError, ProtocolError) as error:
-            print(f"rover sim: {error}; connecting again", file=sys.stderr)
-        else:
-            break
-        finally:
-            client.close()
+    exchange: Exchange = FastExchange(simulation, progress.update)
+    if options.rate != "fast":
+        period = frame_steps * STEP / _rate(options.rate)
+        exchange = TimedExchange(simulation, progress.update, period)
+    keep_exchanging(
+        UnityClient(options.host, options.port),
+        exchange,
+        lambda: stop() or simulation.time >= options.time_limit,
+    )
     progress.report()
     return 0
 
@@ -84,19 +78,35 @@ def world_of(options: argparse.Namespace) -> World:
     return generate_world(options.seed)
 
 
-def _parser() -> argparse.ArgumentParser:
+def option_parser() -> argparse.ArgumentParser:
+    """Of `rover sim`; the README lists them all."""
     parser = argparse.ArgumentParser(prog="rover sim", description=__doc__)
     add = parser.add_argument
     add("--host", default="127.0.0.1", help="of the server (default: %(default)s)")
-    add("--port", type=int, default=4567, help="of the server (default: %(default)s)")
+    add("--port", type=_port, default=4567, help="of the server (default: %(default)s)")
     add_world_options(parser)
     add("--rate", type=_checked_rate, default="realtime",
         help="realtime, fast (as the server answers), or N times real time")  # fmt: skip
-    add("--fps", type=float, default=25.0, help="frames per second (default: %(default)s)")
+    add("--fps", type=_fps, default=25.0,
+        help="frames per second, made 50 over a whole number (default: %(default)s)")  # fmt: skip
     add("--time-limit", type=float, default=float("inf"), metavar="S",
-        help="end after this simulated time [s]")  # fmt: skip
+        help="end when the simulated time, which begins at 1 s, reaches this [s]")  # fmt: skip
     add("--progress", action="store_true", help="print a JSON line per simulated second")
     return parser
+
+
+def _port(text: str) -> int:
+    port = int(text)
+    if not 0 < port < 65536:
+        raise argparse.ArgumentTypeError("a port is 1 to 65535")
+    return port
+
+
+def _fps(text: str) -> float:
+    fps = float(text)
+    if not (math.isfinite(fps) and fps > 0):
+        raise argparse.ArgumentTypeError("a positive number")
+    return fps
 
 
 def _checked_rate(text: str) -> str:
@@ -135,58 +145,6 @@ class Progress:
             "distance": round(simulation.distance, 2),
         }
         print(json.dumps(line), flush=True)
-
-
-def _run_fast(
-    simulation: Simulation, client: UnityClient, stop: Stop, progress: Progress, limit: float
-) -> None:
-    """One exchange in flight: each answered telemetry advances the simulation by one frame.
-
-    On connecting there are two telemetries, as in the original; both are answered first.
-    """
-    client.send_telemetry(simulation.telemetry())
-    waiting = 1
-    while not stop() and simulation.time < limit:
-        event = client.receive(WAIT)
-        if event is None:
-            continue
-        if event.name == OPEN:
-            client.send_telemetry(simulation.telemetry())
-            waiting += 1
-        elif simulation.handle(event.name, event.data):
-            waiting -= 1
-        if waiting == 0:
-            simulation.advance()
-            progress.update()
-            client.send_telemetry(simulation.telemetry())
-            waiting = 1
-
-
-def _run_timed(
-    simulation: Simulation,
-    client: UnityClient,
-    stop: Stop,
-    progress: Progress,
-    limit: float,
-    period: float,
-) -> None:
-    """Frames at a period [s] of wall time, whether the server answers or not."""
-    client.send_telemetry(simulation.telemetry())
-    next_frame = time.monotonic() + period
-    tokens = 0
-    while not stop() and simulation.time < limit:
-        event = client.receive(max(0.0, next_frame - time.monotonic()))
-        if event is not None:
-            tokens += event.name == OPEN or simulation.handle(event.name, event.data)
-            continue
-        if time.monotonic() < next_frame:
-            continue
-        next_frame = max(next_frame + period, time.monotonic() - period)
-        simulation.advance()
-        progress.update()
-        for _ in range(tokens):
-            client.send_telemetry(simulation.telemetry())
-        tokens = 0
 
 
 if __name__ == "__main__":

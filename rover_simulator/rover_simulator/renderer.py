@@ -51,16 +51,28 @@ class Renderer:
     """Renders one world; geometry, shadows and colours of the ground are made once."""
 
     def __init__(self, world: World, terrain: Terrain) -> None:
-        self._scene = rtcore_scene.EmbreeScene()
-        solids = [terrain.triangles()]
-        solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
-        solids += [boulders.mesh(boulder) for boulder in world.boulders]
-        self._samples = len(world.samples)
-        self._meshes = [TriangleMesh(self._scene, *solid) for solid in solids]
+        self._samples = world.samples.copy()
+        self._solids = [terrain.triangles()]
+        self._solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
+        self._solids += [boulders.mesh(boulder) for boulder in world.boulders]
+        self._build_scene()
         self._colors = self._paint(terrain)
         rays = ROVER_CAMERA.rays().reshape(-1, 3)
         self._rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
         self._grain = _grain()
+
+    def hide_sample(self, x: float, y: float) -> None:
+        """The sample at this place [m], if one is there, is gone; takes half a second."""
+        for index in np.flatnonzero((self._samples == (x, y)).all(axis=1)):
+            self._samples[index] = np.nan
+            vertices, triangles = self._solids[index + 1]
+            # Below all ground, because the meshes are known by their order.
+            self._solids[index + 1] = (vertices - np.array([0, 0, 1000], np.float32), triangles)
+            self._build_scene()
+
+    def _build_scene(self) -> None:
+        self._scene = rtcore_scene.EmbreeScene()
+        self._meshes = [TriangleMesh(self._scene, *solid) for solid in self._solids]
 
     def render(self, pose: Pose, ground: float = 0.0) -> Rendering:
         """What the camera sees at a pose on ground of this height [m]."""
@@ -77,7 +89,7 @@ class Renderer:
         colors = np.where(geometry[:, None] >= 0, surface + fog * (FOG - surface), _sky(rays))
         image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
         pixels = np.bincount(geometry[geometry >= 0], minlength=len(self._meshes))[1:]
-        return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels[: self._samples])
+        return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels[: len(self._samples)])
 
     def _surface(self, points: NDArray[np.float32], geometry: NDArray[np.integer]) -> NDArray:
         """Colours (n, 3) of points (n, 3) [m] on the ground, on samples or on boulders."""
@@ -87,8 +99,8 @@ class Renderer:
         fine = (points * GRAIN).astype(np.int32)
         grain = self._grain[(fine[:, 1] + fine[:, 2]) % 512, fine[:, 0] % 512]
         colors = painted.reshape(-1, 3) + grain[:, None]
-        colors[(geometry > 0) & (geometry <= self._samples)] = SAMPLE
-        is_boulder = geometry > self._samples
+        colors[(geometry > 0) & (geometry <= len(self._samples))] = SAMPLE
+        is_boulder = geometry > len(self._samples)
         colors[is_boulder] = BOULDER + grain[is_boulder, None]
         return colors
 

@@ -12,6 +12,8 @@ from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_simulator import boulders
 from rover_simulator.arm import Arm
+from rover_simulator.command_values import check_base64, parse_number
+from rover_simulator.fixed_turn import FixedTurn
 from rover_simulator.renderer import Renderer, encode_jpeg
 from rover_simulator.telemetry_format import format_telemetry
 from rover_simulator.terrain import Terrain
@@ -19,6 +21,7 @@ from rover_simulator.vehicle import STEP, Controls, Vehicle
 from rover_simulator.world import World
 
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
+INSETS = ("inset_image1", "inset_image2", "inset_image3")  # shown on its screen by the original
 CONTACT_HEIGHT = 0.1  # [m] of ground under the rover that counts as touching a wall
 CONTACT_SECONDS = 0.5  # [s] after which another touch is another contact
 
@@ -33,6 +36,7 @@ class Simulation:
         self._boulders = world.boulders
         self._vehicle = Vehicle(world.start)
         self._arm = Arm([(float(x), float(y)) for x, y in world.samples])
+        self._fixed_turn = FixedTurn()
         self._controls = Controls()
         self._frame_steps = frame_steps
         self.time = START_TIME
@@ -55,6 +59,8 @@ class Simulation:
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)
+        if self._arm.lifted is not None:
+            self._renderer.hide_sample(*self._arm.lifted)
         self.time += self._frame_steps * STEP
         self._image = self._next_image
         self._next_image = self._photograph()
@@ -64,7 +70,7 @@ class Simulation:
         vehicle, controls = self._vehicle, self._controls
         return format_telemetry(
             pose=vehicle.pose,
-            speed=0.0 if self._arm.picking_up else vehicle.reported_speed,
+            speed=0.0 if self._held else vehicle.reported_speed,
             throttle=controls.throttle,
             brake=controls.brake,
             steering_angle=controls.steering,
@@ -82,37 +88,60 @@ class Simulation:
         Values that cannot be parsed lose their answer, as in the original; those before them are
         applied.
         """
-        if event == "manual":
-            return True
-        if event == "pickup":
-            if not self._arm.picking_up:
-                self._vehicle.halt()
-                self._arm.start(self._vehicle.pose)
-            return True
-        if event != "data":
+        actions = {
+            "data": self._drive,
+            "manual": lambda _: None,
+            "pickup": self._pick_up,
+            "fixed_turn": self._turn_fixed,
+        }
+        if event not in actions:
             return False
         try:
-            self._drive(data)
+            actions[event](data)
         except (KeyError, TypeError, ValueError):
             return False
         return True
 
+    @property
+    def _held(self) -> bool:
+        """Whether the body is held still, and commands are ignored."""
+        return self._arm.picking_up or self._fixed_turn.running
+
     def _drive(self, data: Mapping[str, Any]) -> None:
-        """In the order steering, throttle, brake; ignored while the arm works."""
-        held = self._controls
-        steering = math.radians(_number(data["steering_angle"]))
+        """In the order steering, throttle, brake, insets; ignored while the body is held."""
+        before = self._controls
+        steering = math.radians(parse_number(data["steering_angle"]))
         steering = max(-MAX_STEERING, min(MAX_STEERING, steering))
-        self._hold(Controls(steering, held.throttle, held.brake))
-        throttle = _number(data["throttle"])
-        self._hold(Controls(steering, throttle, held.brake))
-        self._hold(Controls(steering, throttle, _number(data.get("brake", "0"))))
+        self._hold(Controls(steering, before.throttle, before.brake))
+        throttle = parse_number(data["throttle"])
+        self._hold(Controls(steering, throttle, before.brake))
+        self._hold(Controls(steering, throttle, parse_number(data.get("brake", "0"))))
+        for key in INSETS:
+            check_base64(data.get(key, ""))
+
+    def _pick_up(self, _: Mapping[str, Any]) -> None:
+        if not self._held:
+            self._vehicle.halt()
+            self._arm.start(self._vehicle.pose)
+
+    def _turn_fixed(self, data: Mapping[str, Any]) -> None:
+        """Only a rover that stands, and is told nothing else, turns."""
+        clockwise = math.radians(parse_number(data["angle"]))
+        seconds = parse_number(data.get("time", "0"))
+        standing = self._vehicle.reported_speed == 0.0
+        if standing and self._controls == Controls() and not self._held:
+            self._vehicle.halt()
+            self._fixed_turn.start(-clockwise, seconds)
 
     def _hold(self, controls: Controls) -> None:
-        if not self._arm.picking_up:
+        if not self._held:
             self._controls = controls
 
     def _step(self) -> None:
         if self._arm.picking_up:
+            return
+        if self._fixed_turn.running:
+            self._vehicle.rotate(self._fixed_turn.advance(STEP))
             return
         before = self._vehicle.pose
         self._vehicle.step(self._controls, self._terrain.slope_at(before.x, before.y))
@@ -136,13 +165,3 @@ class Simulation:
     def _photograph(self) -> bytes:
         rendering = self._renderer.render(self._vehicle.pose, self._ground_height())
         return encode_jpeg(rendering.image)
-
-
-def _number(text: Any) -> float:
-    """A finite number from a string; numbers that are not strings are refused."""
-    if not isinstance(text, str):
-        raise TypeError(text)
-    value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(text)
-    return value

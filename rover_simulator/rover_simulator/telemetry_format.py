@@ -10,6 +10,8 @@ from rover_common.geometry import Pose
 
 Samples = Sequence[tuple[float, float]]
 
+SWAPPED_MARKS = str.maketrans(".,", ",.")  # decimal mark and group mark of the other culture
+
 
 def format_telemetry(
     *,
@@ -34,7 +36,8 @@ def format_telemetry(
     """
 
     def number(value: float, digits: int = 4) -> str:
-        return _fixed(value, digits).replace(".", decimal)
+        text = _fixed(value, digits)
+        return text if decimal == "." else text.translate(SWAPPED_MARKS)
 
     telemetry = {
         "steering_angle": number(math.degrees(steering_angle)),
@@ -53,14 +56,15 @@ def format_telemetry(
         "image": base64.b64encode(image).decode("ascii"),
     }
     if sim_time is not None:
-        telemetry["sim_time"] = number(sim_time)
+        # Not the simulator's, so without its groups of thousands: others read it as a plain number.
+        telemetry["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
     return telemetry
 
 
 def _fixed(value: float, digits: int) -> str:
-    text = f"{value:.{digits}f}"
-    # No minus sign before a value that rounds to zero.
-    return text.removeprefix("-") if float(text) == 0.0 else text
+    """As .NET's formats N4 and N2 have it: thousands in groups, no minus before a zero."""
+    text = f"{value:,.{digits}f}"
+    return text if text.strip("-0.") else text.removeprefix("-")
 
 
 def _circle_deg(angle: float) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import re
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -18,16 +19,19 @@ import websocket
 FRAGMENT_BYTES = 1016
 PING_PERIOD = 25.0  # [s] after each pong
 RECONNECT_PAUSE = 0.005  # [s]
+CONNECT_TIMEOUT = 5.0  # [s]
 SEND_TIMEOUT = 5.0  # [s]
+GOODBYE_TIMEOUT = 0.5  # [s] for the server's side of the closing handshake
 SHORTEST_WAIT = 0.001  # [s]
 
 # Each of these events is answered with exactly one telemetry.
 ANSWERED_EVENTS = frozenset({"data", "manual", "pickup", "fixed_turn"})
+ESCAPE = re.compile(r"\\([\"\\]?)")
 OPEN = "open"  # the server's handshake packet; the simulator sends a telemetry on it, unasked
 
 
 class ProtocolError(RuntimeError):
-    """The server sent what the simulator cannot parse; the simulator closes the socket then."""
+    """The server sent what the simulator cannot take; the simulator closes the socket then."""
 
 
 class ConnectionLostError(ConnectionError):
@@ -56,18 +60,26 @@ class UnityClient:
         socket.settimeout(timeout)
         try:
             socket.connect(self._url, suppress_origin=True)
-        except (OSError, websocket.WebSocketException) as error:
+        except (OSError, websocket.WebSocketException, ValueError, IndexError) as error:
+            # The last two are the library's, for an answer that is no HTTP.
             raise ConnectionLostError(f"{self._url}: {error}") from error
         self._socket = socket
         self._send("2")
         self._next_ping = None
 
-    def connect_until(self, stopped: Callable[[], bool]) -> bool:
-        """Try again and again, as the simulator does; False when `stopped` came first."""
+    def connect_until(
+        self, stopped: Callable[[], bool], meanwhile: Callable[[], None] = lambda: None
+    ) -> bool:
+        """Try again and again, as the simulator does; False when `stopped` came first.
+
+        `meanwhile` is called between two tries.
+        """
         while not stopped():
             try:
-                self.connect(timeout=5.0)
+                self.connect(timeout=CONNECT_TIMEOUT)
             except ConnectionLostError:
+                self.close()
+                meanwhile()
                 time.sleep(RECONNECT_PAUSE)
             else:
                 return True
@@ -104,10 +116,12 @@ class UnityClient:
         """Close the socket; `say_goodbye` sends what the application sends when it is quit."""
         if self._socket is None:
             return
-        with contextlib.suppress(ConnectionLostError):
-            if say_goodbye:
+        if say_goodbye:
+            with contextlib.suppress(ConnectionLostError):
                 self._send("41")
                 self._send("1")
+            # Ends only after the server has, so that nothing unread cuts the goodbye off.
+            self._socket.close(timeout=GOODBYE_TIMEOUT)
         self._socket.shutdown()
         self._socket = None
 
@@ -116,24 +130,31 @@ class UnityClient:
         if message.startswith("42"):
             return self._parse_event(message[2:])
         if message.startswith("0"):
-            return Event(OPEN)
+            return self._parse_open(message[1:])
         if message.startswith("2"):
             self._send("3")
         elif message.startswith("3"):
             self._next_ping = time.monotonic() + PING_PERIOD
         return None  # also 40, the connect acknowledgement, which the simulator ignores
 
+    def _parse_open(self, text: str) -> Event:
+        handshake = _parse_json(text)
+        if isinstance(handshake, dict) and "sid" in handshake:
+            return Event(OPEN)
+        raise self._refusal(f"an open packet without sid: {text[:80]}")
+
     def _parse_event(self, text: str) -> Event:
-        try:
-            members = json.loads(text)
-        except ValueError:
-            members = None
+        members = _parse_json(text)
         if isinstance(members, list) and len(members) in (1, 2) and isinstance(members[0], str):
             data = members[1] if len(members) == 2 else {}
             if isinstance(data, dict):
                 return Event(members[0], data)
+        raise self._refusal(f"not an event with one object: {text[:80]}")
+
+    def _refusal(self, reason: str) -> ProtocolError:
+        """Closes the socket, as an exception in the original's receiver does."""
         self.close()
-        raise ProtocolError(f"not an event with one object: {text[:80]}")
+        return ProtocolError(reason)
 
     def _receive_text(self, timeout: float) -> str | None:
         socket = self._connected()
@@ -143,6 +164,8 @@ class UnityClient:
             opcode, data = socket.recv_data()
         except websocket.WebSocketTimeoutException:
             return None
+        except websocket.WebSocketProtocolException as error:  # also a compressed frame
+            raise self._refusal(str(error)) from error
         except (OSError, websocket.WebSocketException) as error:
             raise ConnectionLostError(str(error)) from error
         if opcode == websocket.ABNF.OPCODE_CLOSE:
@@ -181,3 +204,18 @@ class UnityClient:
         if self._socket is None:
             raise ConnectionLostError("not connected")
         return self._socket
+
+
+def _parse_json(text: str) -> Any:
+    """The value of a JSON text with its strings raw, as the simulator reads them: the escapes in
+    them stay escapes. None for what is no JSON.
+    """
+    try:
+        return json.loads(ESCAPE.sub(_escape_again, text))
+    except (ValueError, RecursionError):
+        return None
+
+
+def _escape_again(escape: re.Match[str]) -> str:
+    quoted = escape[1]
+    return r"\\" + (f"\\{quoted}" if quoted else "")

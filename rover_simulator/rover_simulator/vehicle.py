@@ -6,7 +6,7 @@ Sources: the simulator's constants for masses, torques and limits; recordings fo
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.vehicle import (
@@ -81,6 +81,10 @@ class Vehicle:
         pose = self.pose
         self.pose = Pose(before.x, before.y, before.yaw, pose.pitch, pose.roll)
         self.speed = 0.0
+
+    def rotate(self, angle: float) -> None:
+        """Turn the held body by an angle [rad], as a fixed turn does."""
+        self.pose = replace(self.pose, yaw=wrap_angle(self.pose.yaw + angle))
 
     def step(self, controls: Controls, slope: Slope) -> None:
         """One step of 0.02 s."""

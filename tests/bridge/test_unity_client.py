@@ -3,12 +3,10 @@
 import json
 import select
 import socket
-import struct
-import threading
-from base64 import b64encode
-from hashlib import sha1
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from raw_server import Frame, RawServer
 from telemetry import telemetry
 
 from rover_simulator.unity_client import (
@@ -19,70 +17,15 @@ from rover_simulator.unity_client import (
     UnityClient,
 )
 
-GUID = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
-
-
-class RawServer:
-    """Accepts one WebSocket by hand and keeps the bytes that came."""
-
-    def __init__(self) -> None:
-        self._listener = socket.create_server(("127.0.0.1", 0))
-        self.port = self._listener.getsockname()[1]
-        self.request = ""
-        self._thread = threading.Thread(target=self._accept)
-        self._thread.start()
-
-    def _accept(self) -> None:
-        self.connection, _ = self._listener.accept()
-        self.connection.settimeout(5)
-        data = b""
-        while not data.endswith(b"\r\n\r\n"):
-            data += self.connection.recv(1)
-        self.request = data.decode()
-        key = next(
-            line.split(": ")[1] for line in self.request.splitlines() if "WebSocket-Key" in line
-        )
-        accept = b64encode(sha1((key + GUID).encode()).digest()).decode()
-        self.connection.sendall(
-            b"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-            + f"Sec-WebSocket-Accept: {accept}\r\n\r\n".encode()
-        )
-
-    def frame(self) -> tuple[bool, int, bytes]:
-        """(final, opcode, payload) of the next frame; asserts that it is masked."""
-        first, second = self._read(2)
-        assert second & 0x80, "the simulator masks every frame"
-        length = second & 0x7F
-        if length == 126:
-            (length,) = struct.unpack("!H", self._read(2))
-        assert length < 65536
-        mask = self._read(4)
-        payload = bytes(b ^ mask[i % 4] for i, b in enumerate(self._read(length)))
-        return bool(first & 0x80), first & 0x0F, payload
-
-    def send(self, text: str) -> None:
-        payload = text.encode()
-        assert len(payload) < 126
-        self.connection.sendall(bytes([0x81, len(payload)]) + payload)
-
-    def _read(self, count: int) -> bytes:
-        data = b""
-        while len(data) < count:
-            data += self.connection.recv(count - len(data))
-        return data
-
-    def close(self) -> None:
-        self._thread.join()
-        self.connection.close()
-        self._listener.close()
-
 
 @pytest.fixture
 def wire():
     server = RawServer()
     client = UnityClient("127.0.0.1", server.port)
-    client.connect(timeout=5)
-    yield client, server
+    with ThreadPoolExecutor(1) as pool:
+        accepted = pool.submit(server.accept)
+        client.connect(timeout=5)
+        yield client, accepted.result()
     client.close()
     server.close()
 
@@ -98,7 +41,7 @@ def test_handshake(wire):
 
 def test_the_first_word_is_a_ping_and_never_a_connect(wire):
     _, server = wire
-    assert server.frame() == (True, 1, b"2")
+    assert server.frame() == Frame(True, 1, b"2")
 
 
 def test_long_messages_go_in_fragments(wire):
@@ -106,12 +49,12 @@ def test_long_messages_go_in_fragments(wire):
     server.frame()
     client.send_telemetry(telemetry())
     frames = [server.frame()]
-    while not frames[-1][0]:
+    while not frames[-1].final:
         frames.append(server.frame())
     assert len(frames) > 2
-    assert [opcode for _, opcode, _ in frames] == [1] + [0] * (len(frames) - 1)
-    assert {len(payload) for _, _, payload in frames[:-1]} == {FRAGMENT_BYTES}
-    message = b"".join(payload for _, _, payload in frames).decode()
+    assert [frame.opcode for frame in frames] == [1] + [0] * (len(frames) - 1)
+    assert {len(frame.payload) for frame in frames[:-1]} == {FRAGMENT_BYTES}
+    message = b"".join(frame.payload for frame in frames).decode()
     assert message.startswith('42["telemetry",{"steering_angle":"0.0000","throttle":"0.0000"')
     name, data = json.loads(message[2:])
     assert list(data) == list(telemetry())
@@ -126,25 +69,60 @@ def test_events_and_pings(wire):
     assert client.receive(5) == Event("open")
     assert client.receive(5) == Event("data", {"throttle": "0"})
     assert client.receive(5) == Event("manual")
-    assert server.frame() == (True, 1, b"3")
+    assert server.frame() == Frame(True, 1, b"3")
     assert client.receive(0.05) is None
 
 
-@pytest.mark.parametrize("bad", ["42[]", '42["data",5]', '42["a",{},{}]', "42nonsense", "42{}"])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        "42[]",
+        "42[5]",
+        '42["data",5]',
+        '42["data",["0"]]',
+        '42["data","0"]',
+        '42["data",null]',
+        '42["a",{},{}]',
+        "42nonsense",
+        "42{}",
+        "42" + 50_000 * "[",
+        "0{}",  # the session's id is the one thing that must be there
+        "0nonsense",
+    ],
+    ids=lambda bad: bad[:16],
+)
 def test_what_unity_cannot_parse_closes_the_socket(wire, bad):
     client, server = wire
     server.frame()
     server.send(bad)
     with pytest.raises(ProtocolError):
         client.receive(5)
+    assert server.ended()
+
+
+def test_a_compressed_frame_is_refused(wire):
+    client, server = wire
+    server.send('42["manual",{}]', first=0xC1)  # the bit RSV1
+    with pytest.raises(ProtocolError):
+        client.receive(5)
+    assert server.ended()
+
+
+def test_strings_are_taken_raw(wire):
+    client, server = wire
+    server.send(r'42["data",{"a":"\u0030","b":"x\"y","c":"\\","d":"\/"}]')
+    expected = {"a": r"\u0030", "b": r"x\"y", "c": r"\\", "d": r"\/"}
+    assert client.receive(5) == Event("data", expected)
 
 
 def test_goodbye(wire):
     client, server = wire
     server.frame()
+    server.send('42["manual",{}]')  # left unread, it must not cut the goodbye off
     client.close(say_goodbye=True)
-    assert server.frame()[2] == b"41"
-    assert server.frame()[2] == b"1"
+    assert [server.frame().payload for _ in range(2)] == [b"41", b"1"]
+    assert server.frame().opcode == 0x8
+    assert server.ended()
 
 
 def test_a_look_without_waiting_finds_what_has_arrived(wire):
@@ -158,27 +136,38 @@ def test_a_look_without_waiting_finds_what_has_arrived(wire):
 def test_a_frame_that_comes_in_two_parts_is_whole(wire):
     client, server = wire
     payload = b'42["data",{"throttle":"0"}]'
-    server.connection.sendall(bytes([0x81, len(payload)]) + payload[:7])
+    server.socket.sendall(bytes([0x81, len(payload)]) + payload[:7])
     assert client.receive(0.01) is None
-    server.connection.sendall(payload[7:])
+    server.socket.sendall(payload[7:])
     assert client.receive(5) == Event("data", {"throttle": "0"})
 
 
 def test_a_websocket_ping_is_answered(wire):
     client, server = wire
     server.frame()
-    server.connection.sendall(bytes([0x89, 2]) + b"hi")
+    server.socket.sendall(bytes([0x89, 2]) + b"hi")
     assert client.receive(0.05) is None
-    assert server.frame() == (True, 0xA, b"hi")
+    assert server.frame() == Frame(True, 0xA, b"hi")
 
 
 def test_the_next_ping_comes_a_period_after_the_pong(wire, monkeypatch):
     client, server = wire
     monkeypatch.setattr("rover_simulator.unity_client.PING_PERIOD", 0.0)
-    assert server.frame() == (True, 1, b"2")
+    assert server.frame() == Frame(True, 1, b"2")
     server.send("3")
     assert client.receive(0.05) is None
-    assert server.frame() == (True, 1, b"2")
+    assert server.frame() == Frame(True, 1, b"2")
+
+
+def test_an_answer_that_is_no_websocket_is_a_lost_connection():
+    with socket.create_server(("127.0.0.1", 0)) as listener, ThreadPoolExecutor(1) as pool:
+        client = UnityClient("127.0.0.1", listener.getsockname()[1])
+        done = pool.submit(client.connect, 5)
+        connection, _ = listener.accept()
+        with connection:
+            connection.sendall(b"nonsense\r\n\r\n")
+        with pytest.raises(ConnectionLostError):
+            done.result()
 
 
 def test_it_tries_until_a_server_is_there():

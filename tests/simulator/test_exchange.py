@@ -1,0 +1,239 @@
+"""The exchange over a socket: tokens, reconnects, and what bad input does to both."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from raw_server import HANDSHAKE, PING, WAIT, RawServer, Wire
+
+from rover_common.geometry import Pose
+from rover_simulator.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_simulator.simulation import Simulation
+from rover_simulator.unity_client import UnityClient
+from rover_simulator.world import World
+
+FRAME = 0.04  # [s]
+MANUAL = '42["manual",{}]'
+DRIVE = {"steering_angle": "0", "throttle": "0.2", "brake": "0"}
+
+Start = Callable[[Exchange], RawServer]
+
+
+@pytest.fixture(scope="module")
+def simulation() -> Simulation:
+    """One for all tests, because making one takes seconds; each looks at differences only."""
+    hall = np.zeros((200, 200), bool)
+    hall[80:121, 20:181] = True
+    return Simulation(World("hall", hall, np.zeros((0, 2)), Pose(30, 100, 0)), 0, 2)
+
+
+@pytest.fixture
+def start() -> Iterator[Start]:
+    """Runs an exchange in a thread, against a raw server."""
+    server = RawServer()
+    ended = threading.Event()
+    threads: list[threading.Thread] = []
+
+    def run(exchange: Exchange) -> RawServer:
+        client = UnityClient("127.0.0.1", server.port)
+        thread = threading.Thread(target=keep_exchanging, args=(client, exchange, ended.is_set))
+        threads.append(thread)
+        thread.start()
+        return server
+
+    yield run
+    ended.set()
+    server.close()  # also ends a wait of the client's
+    for thread in threads:
+        thread.join()
+
+
+def nothing() -> None:
+    pass
+
+
+def fast(simulation: Simulation) -> FastExchange:
+    return FastExchange(simulation, nothing)
+
+
+def timed(simulation: Simulation) -> TimedExchange:
+    return TimedExchange(simulation, nothing, period=0.02)
+
+
+def opened(server: RawServer) -> Wire:
+    """A connection over which the two unsolicited telemetries have come."""
+    wire = server.accept()
+    assert wire.message() == PING
+    first = wire.telemetry()
+    wire.send(HANDSHAKE)
+    wire.send("40")
+    assert wire.telemetry().keys() == first.keys()
+    return wire
+
+
+def time_of(telemetry: dict[str, str]) -> float:
+    return float(telemetry["sim_time"])
+
+
+def test_the_first_words(simulation, start):
+    server = start(fast(simulation))
+    wire = server.accept()
+    assert wire.message() == PING
+    assert wire.message().startswith('42["telemetry",')  # as the socket opens
+    wire.send(HANDSHAKE)
+    assert wire.message().startswith('42["telemetry",')
+    wire.send("2")
+    assert wire.message() == "3"  # and no telemetry that nobody asked for
+
+
+def test_fast_answers_the_first_two_together_and_then_one_by_one(simulation, start):
+    wire = opened(start(fast(simulation)))
+    before = simulation.time
+    wire.send(MANUAL)
+    wire.send(PING)
+    assert wire.message() == "3"  # the other one is still waited for
+    wire.send(MANUAL)
+    for count in range(1, 6):
+        assert time_of(wire.telemetry()) == pytest.approx(before + count * FRAME)
+        wire.emit("get_samples", {})  # ignored, as all that is unknown
+        wire.emit("data", DRIVE)
+
+
+def test_fast_goes_on_with_the_token_that_is_left(simulation, start):
+    wire = opened(start(fast(simulation)))
+    before = simulation.time
+    wire.emit("data", DRIVE | {"throttle": 0.2})  # a JSON number: this token dies
+    wire.emit("data", DRIVE)
+    assert time_of(wire.telemetry()) == pytest.approx(before + FRAME)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"steering_angle": "0"},
+        DRIVE | {"steering_angle": "NaN"},
+        DRIVE | {"brake": "x"},
+        DRIVE | {"inset_image1": "!"},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("kind", [fast, timed])
+def test_when_all_tokens_are_dead_the_server_may_begin_anew(simulation, start, kind, bad):
+    wire = opened(start(kind(simulation)))
+    wire.emit("data", bad)
+    wire.emit("data", bad)
+    for _ in range(3):
+        wire.send(PING)
+        assert wire.message() == "3"  # alive, but without a telemetry
+    wire.emit("data", DRIVE)
+    wire.telemetry()
+    wire.send(MANUAL)
+    wire.telemetry()
+
+
+def test_timed_sends_one_telemetry_for_each_answer(simulation, start):
+    wire = opened(start(timed(simulation)))
+    times = []
+    for _ in range(3):
+        wire.send(MANUAL)
+    for _ in range(40):
+        times.append(time_of(wire.telemetry()))
+        wire.emit("data", DRIVE)
+    steps = np.diff(times) / FRAME
+    assert np.allclose(steps, np.round(steps), atol=1e-3)
+    assert (np.round(steps) >= 0).all()
+    counts = np.unique(np.round(np.array(times) / FRAME), return_counts=True)[1]
+    assert counts.max() <= 3  # each token at most once per frame
+    for _ in range(3):
+        wire.telemetry()
+    wire.send(PING)
+    assert wire.message() == "3"
+
+
+@pytest.mark.parametrize("kind", [fast, timed])
+@pytest.mark.parametrize("bad", ['42["data",5]', '42["data",{},{}]', "42[]", "0{}"])
+def test_an_event_of_the_wrong_shape_costs_the_connection_only(simulation, start, kind, bad):
+    server = start(kind(simulation))
+    before = simulation.time
+    wire = opened(server)
+    wire.emit("data", DRIVE | {"steering_angle": "7"})
+    wire.send(bad)
+    assert wire.ended()
+    again = opened(server)
+    again.send(MANUAL)
+    again.send(MANUAL)
+    telemetry = again.telemetry()
+    assert telemetry["steering_angle"] == "7.0000"  # what it held, it holds
+    assert time_of(telemetry) > before
+
+
+@pytest.mark.parametrize("kind", [fast, timed])
+def test_a_compressed_frame_costs_the_connection_only(simulation, start, kind):
+    server = start(kind(simulation))
+    wire = opened(server)
+    wire.send(MANUAL, first=0xC1)
+    assert wire.ended()
+    opened(server)
+
+
+def test_the_server_restarts_and_the_rover_is_where_it_was(simulation, start):
+    exchange = fast(simulation)
+    server = start(exchange)
+    wire = opened(server)
+    wire.send(MANUAL)
+    wire.emit("data", DRIVE | {"throttle": "1"})
+    for _ in range(50):
+        last = wire.telemetry()
+        wire.send(MANUAL)
+    last = wire.telemetry()
+    port = server.port
+    server.close()
+    restarted = RawServer(port)
+    try:
+        first = opened_telemetry(restarted)
+        assert first == last  # no time passes without a server, in this mode
+    finally:
+        restarted.close()
+
+
+def opened_telemetry(server: RawServer) -> dict[str, str]:
+    """The telemetry that comes as the socket opens."""
+    wire = server.accept()
+    assert wire.message() == PING
+    return wire.telemetry()
+
+
+def test_without_a_server_the_rover_drives_on(simulation, start):
+    """In real time, as the original has no watchdog."""
+    frames = threading.Semaphore(0)
+    server = start(TimedExchange(simulation, frames.release, period=0.02))
+    wire = opened(server)
+    wire.emit("data", DRIVE | {"throttle": "1"})
+    last = wire.telemetry()
+    port = server.port
+    server.close()
+    while frames.acquire(blocking=False):
+        pass
+    for _ in range(30):
+        assert frames.acquire(timeout=10)
+    restarted = RawServer(port)
+    try:
+        first = opened_telemetry(restarted)
+    finally:
+        restarted.close()
+    assert time_of(first) > time_of(last) + 20 * FRAME
+    assert first["throttle"] == "1.0000"
+    assert float(first["speed"]) > 0.5
+
+
+def test_a_flood_of_events_does_not_stop_the_time(simulation, start):
+    wire = opened(start(timed(simulation)))
+    before = simulation.time
+    end = time.monotonic() + WAIT
+    while simulation.time < before + 5 * FRAME:
+        wire.emit("get_samples", {})
+        assert time.monotonic() < end, "no frame passes"

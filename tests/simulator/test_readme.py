@@ -1,0 +1,58 @@
+"""The README is the simulator's contract: its tables say what the program says."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pytest
+from telemetry import telemetry
+
+from rover_simulator.main import option_parser
+from rover_simulator.unity_client import ANSWERED_EVENTS
+
+README = Path(__file__).resolve().parents[2] / "rover_simulator" / "README.md"
+NO_DEFAULT = {"none": (None, float("inf")), "off": (False,)}
+
+
+def table(heading: str, first: str) -> list[list[str]]:
+    """The rows below a heading, of the table whose first column has this name."""
+    section = README.read_text().split(f"## {heading}\n", 1)[1].split("\n## ", 1)[0]
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in section.splitlines()
+        if line.startswith("|")
+    ]
+    assert rows[0][0] == first
+    return rows[2:]
+
+
+def options() -> dict[str, argparse.Action]:
+    actions = option_parser()._actions
+    return {action.option_strings[-1]: action for action in actions if action.dest != "help"}
+
+
+def test_each_option_is_in_the_table_and_the_other_way_round():
+    rows = table("Options of `rover sim`", "option")
+    assert [row[0].strip("`") for row in rows] == list(options())
+
+
+@pytest.mark.parametrize("name", options())
+def test_each_default_is_the_programs(name):
+    (row,) = [row for row in table("Options of `rover sim`", "option") if row[0] == f"`{name}`"]
+    written, default = row[2], options()[name].default
+    if written in NO_DEFAULT:
+        assert default in NO_DEFAULT[written]
+    else:
+        assert written == f"`{default}`"
+
+
+def test_the_telemetrys_keys_are_those_sent_in_their_order():
+    rows = table("Telemetry", "key")
+    assert [row[0].strip("`") for row in rows] == list(telemetry(sim_time=1.0))
+
+
+def test_the_events_are_those_that_are_answered():
+    rows = table("What it accepts", "event")
+    answered = {row[0].strip("`") for row in rows if row[2] == "yes"}
+    assert answered == ANSWERED_EVENTS
