@@ -89,7 +89,7 @@ def windows(frames: tuple[RecordedFrame, ...]) -> Iterator[list[RecordedFrame]]:
 def window_error(frames: list[RecordedFrame]) -> tuple[float, float, float]:
     """Errors of speed [m/s], yaw [rad] and position [m] at the window's end."""
     vehicle = Vehicle(frames[0].pose)
-    vehicle.speed = frames[0].speed
+    vehicle.roll_on(frames[0].speed, _between(frames[0], frames[0]))
     for frame, following in pairwise(frames):
         controls = _between(frame, following)
         steps = round((following.time - frames[0].time) / STEP) - round(
