@@ -78,7 +78,15 @@ def test_stronger_brake_stops_as_derived(brake, speed, seconds, metres):
 
 @pytest.mark.parametrize(
     ("throttle", "speed", "rate_deg"),
-    [(0, 1.0, 17), (0, 1.5, 24), (0, 2.0, 29), (0, 2.5, 33), (0, 3.1, 35), (1, 3.75, 37), (1, 5, 33)],
+    [
+        (0, 1.0, 17),
+        (0, 1.5, 24),
+        (0, 2.0, 29),
+        (0, 2.5, 33),
+        (0, 3.1, 35),
+        (1, 3.75, 37),
+        (1, 5, 33),
+    ],
 )
 def test_yaw_rate_at_full_steering(throttle, speed, rate_deg):
     vehicle = driven(Controls(steering=MAX_STEERING, throttle=throttle), STEP, speed)
