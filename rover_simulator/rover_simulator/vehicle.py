@@ -94,6 +94,7 @@ class Vehicle:
         pose = self.pose
         self.pose = Pose(before.x, before.y, before.yaw, pose.pitch, pose.roll)
         self.speed = 0.0
+        self._yaw_rate = 0.0
 
     def step(self, controls: Controls, slope: Slope) -> None:
         """One step of 0.02 s."""
