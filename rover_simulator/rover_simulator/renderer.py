@@ -86,8 +86,10 @@ class Renderer:
 
         Rays that come down on the bare floor around the camera need no search: half of the image.
         """
+        reach = self._bare(origin)
         level = np.hypot(rays[:, 0], rays[:, 1])
-        plain = level * np.float32(origin[2]) < -rays[:, 2] * np.float32(self._bare(origin))
+        plain = level * np.float32(origin[2]) < -rays[:, 2] * np.float32(reach)
+        plain &= reach > 0.0
         geometry = np.zeros(len(rays), np.int32)
         distance = np.zeros(len(rays), np.float32)
         np.divide(-origin[2], rays[:, 2], out=distance, where=plain, casting="same_kind")
@@ -100,7 +102,9 @@ class Renderer:
         return geometry, distance
 
     def _bare(self, origin: NDArray[np.float64]) -> float:
-        """Around a point, the radius [m] of flat floor on which nothing stands; 0 for none."""
+        """Below a point, the radius [m] of flat floor on which nothing stands; 0 for none."""
+        if origin[2] <= 0.0:  # the nose is in the ground
+            return 0.0
         x, y = origin[:1], origin[1:2]
         reach = -float(self._terrain.outside_at(x, y)[0]) - 2 * SPACING
         if len(self._standing):
