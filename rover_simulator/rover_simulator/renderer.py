@@ -29,10 +29,10 @@ FOG = np.array([139, 125, 114.0], np.float32)
 FOG_DENSITY = 0.005  # [1/m], exponential squared
 PAINT = 8  # [1/m] colours of the ground
 SHADOW = 4  # [1/m] its shadows, whose edges are soft
-GRAIN_SCALE = 2.5  # texels of the fine texture per one of the paint: 20 per metre
+GRAIN_SCALE = 5  # texels of the fine texture per one of the paint: 40 per metre
 SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
-TEXTURE = 0.05  # of the ground's colour: its fine texture near the camera, one pixel from afar
-TEXTURE_RANGE = 3.0  # [m] over which it fades
+TEXTURE = 0.06  # of the ground's colour: its fine texture near the camera, one pixel from afar
+TEXTURE_RANGE = 0.8  # [m] over which it fades
 JPEG_QUALITY = 75
 
 SAMPLE_RADIUS, SAMPLE_HEIGHT = 0.08, 0.13  # [m]

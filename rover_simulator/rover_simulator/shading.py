@@ -31,8 +31,8 @@ SKY_RED = (168.0, 157.0, 145.0, 135.0, 122.0, 118.0, 111.0)
 SKY_TINT = np.array([0, -9.3, -14.0], np.float32)
 SKY_SUNWARD, SKY_ELSEWHERE = 30.0, -11.0  # [levels] toward the sun, and the same everywhere
 
-SAND_TEXTURE = 2.5  # [levels] standard deviation
-WALL_TEXTURE, WALL_RUST = 0.25, 0.07  # shares of its colour: of light, and of red against blue
+SAND_TEXTURE = 0.8  # [levels] standard deviation
+WALL_TEXTURE, WALL_RUST = 0.38, 0.08  # shares of its colour: of light, and of red against blue
 
 
 def ground_colors(sand: NDArray[np.float32], shade: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -45,10 +45,11 @@ def ground_colors(sand: NDArray[np.float32], shade: NDArray[np.float32]) -> NDAr
     dark = sand[..., None] * (SAND_SHADOW - WALL_SHADOW) + WALL_SHADOW
     colors = lit + shade[..., None] * (dark - lit)
     shape, wall = sand.shape, 1.0 - sand
-    light = noise(shape, 2.0, 1) + noise(shape, 6.0, 2) + 0.7 * noise(shape, 24.0, 3)
+    light = noise(shape, 0.8, 0) + noise(shape, 2.0, 1) + noise(shape, 6.0, 2)
+    light += 0.7 * noise(shape, 24.0, 3)
     rust = noise(shape, 10.0, 4) + noise(shape, 40.0, 5)
     light, rust = light / light.std(), rust / rust.std()
-    colors *= (1.0 + WALL_TEXTURE * wall * light)[..., None]
+    colors *= np.maximum(1.0 + WALL_TEXTURE * wall * light, 0.2)[..., None]
     colors[..., 0] *= 1.0 + WALL_RUST * wall * rust
     colors[..., 2] *= 1.0 - WALL_RUST * wall * rust
     colors += (SAND_TEXTURE * sand * light)[..., None]
