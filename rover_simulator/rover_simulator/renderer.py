@@ -27,6 +27,7 @@ BOULDER = np.array([17, 13, 10.0], np.float32)
 SAMPLE = np.array([170, 143, 15.0], np.float32)  # lit by itself, so that it is the same in shadow
 FOG = np.array([139, 125, 114.0], np.float32)
 FOG_DENSITY = 0.005  # [1/m], exponential squared
+FOG_FROM = 5.0  # [m] nearer, it is less than a thousandth
 PAINT = 8  # [1/m] colours of the ground
 SHADOW = 4  # [1/m] its shadows, whose edges are soft
 GRAIN_SCALE = 5  # texels of the fine texture per one of the paint: 40 per metre
@@ -72,7 +73,9 @@ class Renderer:
         geometry, distance = self._cast(origin, rays)
         points = origin.astype(np.float32) + rays * distance[:, None]
         colors = self._surface(points, geometry, rays, distance)
-        colors += (1.0 - np.exp(-((FOG_DENSITY * distance) ** 2)))[:, None] * (FOG - colors)
+        far = np.flatnonzero(distance > FOG_FROM)
+        fog = 1.0 - np.exp(-((FOG_DENSITY * distance[far]) ** 2))
+        colors[far] += fog[:, None] * (FOG - colors[far])
         sky = geometry < 0
         colors[sky] = sky_colors(rays[sky])
         image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
@@ -130,7 +133,7 @@ class Renderer:
         )
         grain = fine.ravel() * np.exp(-distance / TEXTURE_RANGE)
         colors = painted.reshape(-1, 3) * (1.0 + grain)[:, None]
-        colors = shine(colors, rays, distance)
+        shine(colors, rays, distance)
         colors[(geometry > 0) & (geometry <= self._samples)] = SAMPLE
         is_boulder = geometry > self._samples
         colors[is_boulder] = BOULDER * (1.0 + 4.0 * grain[is_boulder])[:, None]

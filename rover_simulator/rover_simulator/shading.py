@@ -69,13 +69,16 @@ def noise(shape: tuple[int, ...], sigma: float, seed: int) -> NDArray[np.float32
 
 def shine(
     colors: NDArray[np.float32], rays: NDArray[np.float32], distance: NDArray[np.float32]
-) -> NDArray[np.float32]:
-    """Ground (n, 3) as seen along rays (n, 3) at distances (n,) [m]: bright ground alone varies."""
-    bright = np.clip((colors[:, 0] - 100.0) / 100.0, 0.0, 1.0)
-    gain = bright * (np.interp(distance, SAND_RANGE, SAND_GAIN).astype(np.float32) - 1.0) + 1.0
-    level = np.hypot(rays[:, 0], rays[:, 1])
-    toward = np.maximum(rays[:, :2] @ SHEEN_TO, 0.0) / level  # cosine of the angle between them
-    return colors * gain[:, None] + (bright * toward**4)[:, None] * SHEEN
+) -> None:
+    """Change ground (n, 3), seen along rays (n, 3) at distances (n,) [m], where it is bright."""
+    where = np.flatnonzero(colors[:, 0] > 100.0)
+    color, ray = colors[where], rays[where, :2]
+    bright = np.minimum((color[:, 0] - 100.0) / 100.0, 1.0)
+    gain = np.interp(distance[where], SAND_RANGE, SAND_GAIN).astype(np.float32) - 1.0
+    toward = np.maximum(ray @ SHEEN_TO, 0.0) / np.hypot(ray[:, 0], ray[:, 1])  # cosine of an angle
+    color *= (1.0 + bright * gain)[:, None]
+    color += (bright * np.square(np.square(toward)))[:, None] * SHEEN
+    colors[where] = color
 
 
 def from_sun(rays: NDArray[np.float32]) -> NDArray[np.float32]:
