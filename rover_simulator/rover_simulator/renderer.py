@@ -19,23 +19,21 @@ from rover_common.geometry import Pose, rotation_matrix
 from rover_common.grid import WORLD_SIZE
 from rover_simulator import boulders
 from rover_simulator.profile import sand_at
-from rover_simulator.terrain import Terrain
+from rover_simulator.shading import SUN, ground_colors, noise, shine, sky_colors
+from rover_simulator.terrain import SPACING, Terrain
 from rover_simulator.world import World
 
-SAND_LIT, SAND_SHADOW = np.array([238, 220, 205.0]), np.array([208, 189, 175.0])
-WALL_LIT, WALL_SHADOW = np.array([41, 28, 24.0]), np.array([19, 12, 9.0])
 BOULDER = np.array([17, 13, 10.0], np.float32)
 SAMPLE = np.array([170, 143, 15.0], np.float32)  # lit by itself, so that it is the same in shadow
-SKY_LOW = np.array([157, 148, 143.0], np.float32)
-SKY_HIGH = np.array([112, 104, 99.0], np.float32)
-SKY_LOW_AT, SKY_HIGH_AT = math.radians(13), math.radians(36)  # elevations of these colours
 FOG = np.array([139, 125, 114.0], np.float32)
 FOG_DENSITY = 0.005  # [1/m], exponential squared
-SUN = np.array([0.321, -0.557, 0.766])  # east, north, up: towards the sun
+FOG_FROM = 5.0  # [m] nearer, it is less than a thousandth
 PAINT = 8  # [1/m] colours of the ground
-GRAIN = 20  # [1/m] its texture
+SHADOW = 4  # [1/m] its shadows, whose edges are soft
+GRAIN_SCALE = 5  # texels of the fine texture per one of the paint: 40 per metre
 SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
-TEXTURE = 6.0  # grey levels of the surfaces' texture
+TEXTURE = 0.06  # of the ground's colour: its fine texture near the camera, one pixel from afar
+TEXTURE_RANGE = 0.8  # [m] over which it fades
 JPEG_QUALITY = 75
 
 SAMPLE_RADIUS, SAMPLE_HEIGHT = 0.08, 0.13  # [m]
@@ -56,10 +54,14 @@ class Renderer:
         self._solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
         self._solids += [boulders.mesh(boulder) for boulder in world.boulders]
         self._build_scene()
+        self._terrain = terrain
         self._colors = self._paint(terrain)
+        boulders_at = [(boulder.x, boulder.y, boulder.radius) for boulder in world.boulders]
+        samples_at = [(float(x), float(y), SAMPLE_RADIUS) for x, y in world.samples]
+        self._standing = np.array(boulders_at + samples_at).reshape(-1, 3)
         rays = ROVER_CAMERA.rays().reshape(-1, 3)
         self._rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
-        self._grain = _grain()
+        self._grain = TEXTURE * noise((512, 512), 1.2, seed=7)
 
     def hide_sample(self, x: float, y: float) -> None:
         """The sample at this place [m], if one is there, is gone; takes half a second."""
@@ -80,41 +82,85 @@ class Renderer:
         origin = np.array([pose.x, pose.y, ground + ORIGIN_HEIGHT])
         origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
         rays = self._rays @ rotation.T.astype(np.float32)
-        hit = self._trace(np.broadcast_to(origin, rays.shape), rays)
-        geometry = hit["geomID"]
-        distance = np.where(geometry >= 0, hit["tfar"], 0.0).astype(np.float32)[:, None]
-        points = origin.astype(np.float32) + rays * distance
-        surface = self._surface(points, geometry)
-        fog = 1.0 - np.exp(-((FOG_DENSITY * distance) ** 2))
-        colors = np.where(geometry[:, None] >= 0, surface + fog * (FOG - surface), _sky(rays))
+        geometry, distance = self._cast(origin, rays)
+        points = origin.astype(np.float32) + rays * distance[:, None]
+        colors = self._surface(points, geometry, rays, distance)
+        far = np.flatnonzero(distance > FOG_FROM)
+        fog = 1.0 - np.exp(-((FOG_DENSITY * distance[far]) ** 2))
+        colors[far] += fog[:, None] * (FOG - colors[far])
+        sky = geometry < 0
+        colors[sky] = sky_colors(rays[sky])
         image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
         pixels = np.bincount(geometry[geometry >= 0], minlength=len(self._meshes))[1:]
         return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels[: len(self._samples)])
 
-    def _surface(self, points: NDArray[np.float32], geometry: NDArray[np.integer]) -> NDArray:
+    def _cast(
+        self, origin: NDArray[np.float64], rays: NDArray[np.float32]
+    ) -> tuple[NDArray[np.integer], NDArray[np.float32]]:
+        """What unit rays (n, 3) meet, -1 the sky, and how far away [m], 0 for the sky.
+
+        Rays that come down on the bare floor around the camera need no search: half of the image.
+        """
+        reach = self._bare(origin)
+        level = np.hypot(rays[:, 0], rays[:, 1])
+        plain = level * np.float32(origin[2]) < -rays[:, 2] * np.float32(reach)
+        plain &= reach > 0.0
+        geometry = np.zeros(len(rays), np.int32)
+        distance = np.zeros(len(rays), np.float32)
+        np.divide(-origin[2], rays[:, 2], out=distance, where=plain, casting="same_kind")
+        searched = np.flatnonzero(~plain)
+        if len(searched):
+            there = rays[searched]
+            hit = self._trace(np.broadcast_to(origin, there.shape), there)
+            geometry[searched] = hit["geomID"]
+            distance[searched] = np.where(hit["geomID"] >= 0, hit["tfar"], 0.0)
+        return geometry, distance
+
+    def _bare(self, origin: NDArray[np.float64]) -> float:
+        """Below a point, the radius [m] of flat floor on which nothing stands; 0 for none."""
+        if origin[2] <= 0.0:  # the nose is in the ground
+            return 0.0
+        x, y = origin[:1], origin[1:2]
+        reach = -float(self._terrain.outside_at(x, y)[0]) - 2 * SPACING
+        if len(self._standing):
+            there = self._standing
+            reach = min(
+                reach, float(np.min(np.hypot(there[:, 0] - x, there[:, 1] - y) - there[:, 2]))
+            )
+        return max(0.0, reach)
+
+    def _surface(
+        self,
+        points: NDArray[np.float32],
+        geometry: NDArray[np.integer],
+        rays: NDArray[np.float32],
+        distance: NDArray[np.float32],
+    ) -> NDArray[np.float32]:
         """Colours (n, 3) of points (n, 3) [m] on the ground, on samples or on boulders."""
         shape = (ROVER_CAMERA.height, ROVER_CAMERA.width)  # remap takes no long columns
         x, y = ((points[:, axis] * PAINT - 0.5).reshape(shape) for axis in (0, 1))
         painted = cv2.remap(self._colors, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-        fine = (points * GRAIN).astype(np.int32)
-        grain = self._grain[(fine[:, 1] + fine[:, 2]) % 512, fine[:, 0] % 512]
-        colors = painted.reshape(-1, 3) + grain[:, None]
+        fine = cv2.remap(
+            self._grain, x * GRAIN_SCALE, y * GRAIN_SCALE, cv2.INTER_LINEAR, None, cv2.BORDER_WRAP
+        )
+        grain = fine.ravel() * np.exp(-distance / TEXTURE_RANGE)
+        colors = painted.reshape(-1, 3) * (1.0 + grain)[:, None]
+        shine(colors, rays, distance)
         colors[(geometry > 0) & (geometry <= len(self._samples))] = SAMPLE
         is_boulder = geometry > len(self._samples)
-        colors[is_boulder] = BOULDER + grain[is_boulder, None]
+        colors[is_boulder] = BOULDER * (1.0 + 4.0 * grain[is_boulder])[:, None]
         return colors
 
     def _paint(self, terrain: Terrain) -> NDArray[np.float32]:
         """Colours of the ground seen from above, (200 PAINT, 200 PAINT, 3), with its shadows."""
-        at = (np.arange(round(WORLD_SIZE * PAINT)) + 0.5) / PAINT
-        x, y = (axis.ravel() for axis in np.meshgrid(at, at))
+        x, y = _grid(SHADOW)
         start = np.stack([x, y, terrain.height_at(x, y) + SHADOW_BIAS], axis=1)
         blocked = self._trace(start, np.broadcast_to(SUN, start.shape))["geomID"] >= 0
-        sand = sand_at(terrain.outside_at(x, y))[:, None]
-        lit = sand * SAND_LIT + (1 - sand) * WALL_LIT
-        shadow = sand * SAND_SHADOW + (1 - sand) * WALL_SHADOW
-        colors = np.where(blocked[:, None], shadow, lit)
-        return colors.reshape(len(at), len(at), 3).astype(np.float32)
+        cells, shadow_cells = round(WORLD_SIZE * PAINT), round(WORLD_SIZE * SHADOW)
+        shade = blocked.reshape(shadow_cells, shadow_cells).astype(np.float32)
+        shade = np.asarray(cv2.resize(shade, (cells, cells), interpolation=cv2.INTER_LINEAR))
+        sand = sand_at(terrain.outside_at(*_grid(PAINT))).astype(np.float32)
+        return ground_colors(sand.reshape(cells, cells), shade)
 
     def _trace(self, origins: NDArray, directions: NDArray) -> dict[str, NDArray]:
         result: dict[str, NDArray] = self._scene.run(
@@ -125,11 +171,11 @@ class Renderer:
         return result
 
 
-def _grain() -> NDArray[np.float32]:
-    """The surfaces' texture (512, 512) in grey levels."""
-    noise = np.random.default_rng(7).normal(size=(512, 512))
-    texture = np.asarray(cv2.GaussianBlur(noise, (0, 0), 1.2))
-    return (TEXTURE / texture.std() * texture).astype(np.float32)
+def _grid(density: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """x and y (n,) [m] of the middles of all cells, row by row; density in cells per metre."""
+    at = (np.arange(round(WORLD_SIZE * density)) + 0.5) / density
+    x, y = np.meshgrid(at, at)
+    return x.ravel(), y.ravel()
 
 
 def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
@@ -142,13 +188,6 @@ def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
     ]
     _, data = cv2.imencode(".jpg", cv2.cvtColor(image, cv2.COLOR_RGB2BGR), parameters)
     return data.tobytes()
-
-
-def _sky(rays: NDArray[np.float32]) -> NDArray:
-    """Colours (n, 3) of the sky along unit rays (n, 3)."""
-    elevation = np.arcsin(np.clip(rays[:, 2], -1, 1))
-    share = np.clip((elevation - SKY_LOW_AT) / (SKY_HIGH_AT - SKY_LOW_AT), 0, 1)[:, None]
-    return (1 - share) * SKY_LOW + share * SKY_HIGH
 
 
 def _sample_mesh(x: float, y: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:

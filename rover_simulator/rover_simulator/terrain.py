@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_simulator.boulders import boulder_cells
-from rover_simulator.profile import MAP_MARGIN, height_at
+from rover_simulator.profile import MAP_MARGIN, height_at, spread_at
 from rover_simulator.vehicle import Slope
 
 SPACING = 0.390625  # [m] between heights, 513 of them over 200 m, as in the original
 COUNT = 513
 FINE = 8  # distances are measured on a grid of 1/8 m
-ROUGHNESS = 0.35  # of the height: the spread of the measured profile
+# The relief: shares of noise of these widths [m]. Skylines of the original are round over metres.
+RELIEF_WIDTHS, RELIEF_SHARES = (1.5, 5.0, 15.0), (0.15, 0.5, 1.0)
 
 
 @dataclass(frozen=True)
@@ -24,20 +25,23 @@ class Terrain:
     outside: NDArray[np.float32]  # (1600, 1600) [m] from the flat floor's edge, negative inside
 
     @classmethod
-    def of(cls, navigable: NDArray[np.bool_], seed: int = 0) -> Terrain:
-        """Build it; the seed decides how rough the walls are. Boulders stand on its floor."""
+    def of(
+        cls, navigable: NDArray[np.bool_], seed: int = 0, relief: NDArray[np.floating] | None = None
+    ) -> Terrain:
+        """Build it from the median profile of walls. Boulders stand on its floor.
+
+        relief: factors (513, 513) of the heights; without it they are drawn from the seed, with
+        the spread that was measured.
+        """
         floor = _floor(navigable | boulder_cells(navigable))
         inside = ndimage.distance_transform_edt(floor) / FINE
         outward = ndimage.distance_transform_edt(~floor) / FINE
         outside = np.where(floor, -inside, outward).astype(np.float32)
         at = np.arange(COUNT) * SPACING
         distance = _sample(outside, *np.meshgrid(at, at))
-        noise = np.random.default_rng(seed).normal(size=(COUNT, COUNT))
-        rough = sum(
-            ndimage.gaussian_filter(noise, sigma, mode="wrap") * sigma for sigma in (2.0, 6.0, 20.0)
-        )
-        rough = 1.0 + ROUGHNESS * rough / rough.std()
-        heights = height_at(distance) * np.clip(rough, 0.3, 2.0)
+        if relief is None:
+            relief = np.exp(spread_at(distance) * _noise(seed))
+        heights = height_at(distance) * relief
         return cls(heights.astype(np.float32), outside)
 
     def outside_at(self, x: NDArray, y: NDArray) -> NDArray[np.float32]:
@@ -66,6 +70,16 @@ class Terrain:
         lower = np.stack([corner, corner + 1, corner + COUNT], axis=1)
         upper = np.stack([corner + 1, corner + COUNT + 1, corner + COUNT], axis=1)
         return vertices, np.concatenate([lower, upper]).astype(np.int32)
+
+
+def _noise(seed: int) -> NDArray[np.float64]:
+    """Smooth noise (513, 513) of standard deviation 1."""
+    white = np.random.default_rng(seed).standard_normal((COUNT, COUNT))
+    total = np.zeros((COUNT, COUNT))
+    for width, share in zip(RELIEF_WIDTHS, RELIEF_SHARES, strict=True):
+        smooth = ndimage.gaussian_filter(white, width / SPACING, mode="wrap", truncate=3.0)
+        total += share * smooth / smooth.std()
+    return total / total.std()
 
 
 def _floor(navigable: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -26,9 +26,15 @@ COAST = 0.0574  # [1/s] wheel damping
 BRAKE_INPUT = (0.0, 0.83, 1.0, 2.0, 5.0)
 BRAKE_DECELERATION = (0.0, 2.5, 2.5, 4.2, 7.0)
 YAW_COASTING, YAW_DRIVEN = 0.92, 0.96  # of the kinematic yaw rate
-CORNERING = 0.012  # [s] deceleration per yaw rate and speed
+# Deceleration per sideways acceleration; measured at full steering: 0.03 m/s^2 at 1.75 m/s,
+# 0.06 at 2.75 and 0.13 at 3.75, where the rover is pushed sideways with 0.8, 1.6 and 2.4 m/s^2.
+CORNERING = 0.04
 AXLE_BEHIND = 0.336  # [m] rear axle behind the origin
-SLIP_FREE_SPEED = 3.7  # [m/s] where the course no longer differs from the yaw
+# The tyres give way sideways, so that the course swings from inside of the yaw at low speed to
+# outside of it at high: 4 degrees at 2 m/s and full steering, none at 3.7, -1.4 at 5.
+SIDE_GIVE = math.radians(1.15)  # [rad s^2/m] of course per sideways acceleration
+# The yaw rate follows the wheels only after the tyres have rolled on.
+YAW_DELAY = 0.006  # [s^2/m] time constant per speed: 0.03 s at 5 m/s
 # The body rocks: period 1.9 s, damping ratio 0.085, within the suspension's stops.
 ROCKING = 2 * math.pi / 1.9  # [rad/s]
 DAMPING = 0.085
@@ -64,6 +70,7 @@ class Vehicle:
         self.pose = start
         self.speed = 0.0  # [m/s] along the body, forward positive
         self._turning = False  # on the spot
+        self._yaw_rate = 0.0  # [rad/s]
         self._pitch_rate = 0.0
         self._roll_rate = 0.0
 
@@ -75,12 +82,19 @@ class Vehicle:
         """Freeze the body, as the arm's sequence does."""
         self.speed = 0.0
         self._turning = False
+        self._yaw_rate = 0.0
+
+    def roll_on(self, speed: float, controls: Controls) -> None:
+        """Go on as if it had driven at this speed [m/s] under these controls for a while."""
+        self.speed = speed
+        self._yaw_rate = self._steady_yaw_rate(controls)
 
     def bump(self, before: Pose) -> None:
         """Stand still where it was before it ran into something."""
         pose = self.pose
         self.pose = Pose(before.x, before.y, before.yaw, pose.pitch, pose.roll)
         self.speed = 0.0
+        self._yaw_rate = 0.0
 
     def rotate(self, angle: float) -> None:
         """Turn the held body by an angle [rad], as a fixed turn does."""
@@ -94,19 +108,24 @@ class Vehicle:
         before = self.speed
         if self._turning:
             self.speed = 0.0
+            self._yaw_rate = 0.0
             self._move(0.0, TURN_IN_PLACE_RATE * controls.steering, 0.0, slope)
             self._tilt(0.0, 0.0, slope)
             return
-        wheel = self._wheel_angle(controls)
-        factor = YAW_DRIVEN if controls.throttle else YAW_COASTING
-        rate = factor * self.speed * math.tan(wheel) / WHEELBASE
+        steady = self._steady_yaw_rate(controls)
+        self._yaw_rate += (steady - self._yaw_rate) * STEP / (STEP + YAW_DELAY * abs(self.speed))
+        rate = self._yaw_rate
         self._accelerate(controls, rate, slope)
-        slip = 0.8 * math.atan(AXLE_BEHIND * math.tan(wheel) / WHEELBASE)
-        slip *= min(1.0, max(0.0, (SLIP_FREE_SPEED - abs(self.speed)) / (SLIP_FREE_SPEED - 2.0)))
-        self._move(self.speed, rate, slip, slope)
+        inside = math.atan(AXLE_BEHIND * math.tan(self._wheel_angle(controls)) / WHEELBASE)
+        self._move(self.speed, rate, inside - SIDE_GIVE * abs(self.speed) * rate, slope)
         drive = DRIVE * controls.throttle if self.speed < MAX_SPEED - 0.01 else DRIVE
         braking = (before - self.speed) / STEP if controls.brake else 0.0
         self._tilt(drive * bool(controls.throttle) - braking, self.speed * rate, slope)
+
+    def _steady_yaw_rate(self, controls: Controls) -> float:
+        """Yaw rate [rad/s] of a long turn at this speed: a part of what the wheels' angle gives."""
+        factor = YAW_DRIVEN if controls.throttle else YAW_COASTING
+        return factor * self.speed * math.tan(self._wheel_angle(controls)) / WHEELBASE
 
     def _wheel_angle(self, controls: Controls) -> float:
         """Front wheels [rad]: 15 degrees at rest, 5 at 5 m/s, doubled in reverse."""

@@ -46,8 +46,9 @@ def test_it_hardly_slows_without_the_brake_and_stops_with_it():
 @pytest.mark.parametrize(("speed", "rate_deg"), [(1.0, 17), (2.0, 29), (3.0, 36)])
 def test_turns_as_measured(speed, rate_deg):
     vehicle = Vehicle(Pose(0, 0, 0))
-    vehicle.speed = speed
-    vehicle.step(Controls(steering=MAX_STEERING), FLAT)
+    controls = Controls(steering=MAX_STEERING)
+    vehicle.roll_on(speed, controls)
+    vehicle.step(controls, FLAT)
     assert math.degrees(vehicle.pose.yaw / STEP) == pytest.approx(rate_deg, rel=0.1)
 
 
