@@ -7,7 +7,7 @@ import sys
 
 # Imported only when called: each needs other libraries, and start-up time is felt.
 COMMANDS = {
-    "demo": ("rover_bringup.demo", "a drive through a generated canyon, mapped and scored"),
+    "demo": ("rover_bringup.demo", "a whole mission in a small generated canyon, scored"),
     "mission": ("rover_bringup.mission", "a mission in the embedded simulator, to its end"),
     "sim": ("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "replay": ("rover_bringup.replay", "play a recorded run through the graph and score the map"),

@@ -1,7 +1,6 @@
-"""`rover demo`: a drive of the project's own, through the wire, the graph and the scoring.
+"""`rover demo`: a whole mission in a small generated canyon: explore, collect, come home.
 
-Frames are rendered by the camera model over a generated canyon and played to the bridge as the
-Unity simulator would send them.
+The three nodes run as they always do; the embedded simulator takes the place of the Unity one.
 """
 
 from __future__ import annotations
@@ -11,10 +10,12 @@ import json
 from pathlib import Path
 
 from rover_bringup.command import run_command
-from rover_bringup.replay import OVERRIDES, replay
-from rover_bringup.results import Truth, summary
-from rover_bringup.run import note, result_folder, running_graph
-from rover_simulator.recording import read_recording
+from rover_bringup.mission import fly
+from rover_bringup.results import summary
+from rover_bringup.run import note, result_folder
+from rover_simulator.worldgen import generate_world
+
+TIME_LIMIT = 600.0  # [s] simulated
 
 
 def main(arguments: list[str]) -> int:
@@ -27,24 +28,22 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="rover demo", description=__doc__)
     add = parser.add_argument
     add("--seed", type=int, default=1, help="of the canyon (default: %(default)s)")
-    add("--frames", type=int, default=300, help="length of the drive (default: %(default)s)")
+    add("--size", type=float, default=0.4,
+        help="of the canyon, 1 as large as the original (default: %(default)s)")  # fmt: skip
     add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
     add("--json", action="store_true", help="print the result as one JSON object")
     return parser
 
 
 def _demo(options: argparse.Namespace) -> None:
-    from rover_simulator.recorder import record_drive  # renders: slow to import
-
     folder = result_folder("demo", options.out)
-    note(f"rendering a drive of {options.frames} frames through canyon {options.seed}")
-    drive = record_drive(folder / "drive", options.seed, options.frames)
-    truth = Truth.load(drive.truth, drive.samples)
-    with running_graph(folder, OVERRIDES) as run:
-        result = replay(read_recording(drive.folder), run, truth, 2, f"canyon {options.seed}")
+    world = generate_world(options.seed, options.size)
+    result = fly(world, options.seed, TIME_LIMIT, folder)
     print(json.dumps(result) if options.json else summary(result))
+    came = "is home" if result["done"] else "is not home"
     note(
-        f"drove {result['frames']} frames through the graph and mapped "
+        f"the rover {came} after {result['time']} s of simulated time, with "
+        f"{result['samples_collected']} of {result['samples_total']} samples; it mapped "
         f"{result['percent_mapped']} % of the canyon at {result['fidelity']} % fidelity; "
         f"look at {folder / 'map.png'}"
     )

@@ -82,6 +82,7 @@ def fly(
         ]  # fmt: skip
         run.processes.start(SIMULATOR, command)
         done = _watch(run, time_limit)
+        run.processes.end(SIMULATOR)  # only then has it said where the rover stands
         flight = read_flight(folder / "log" / f"{SIMULATOR}.log")
         mission = run.watch.mission
         stamp = 0 if mission is None else round(flight.time * 1e9)
@@ -100,6 +101,7 @@ def fly(
         "home_distance": round(float(home), 2),
         "distance": round(flight.distance, 1),
         "contacts": flight.contacts,
+        "recoveries": None if mission is None else mission.recoveries,
         "world": world.name,
         "seed": seed,
         "wall_seconds": round(time.monotonic() - start, 1),

@@ -64,17 +64,20 @@ class Processes:
         """The exit code of the named process, None while it runs."""
         return next(c for c in self._children if c.name == name).process.poll()
 
+    def end(self, name: str) -> None:
+        """SIGINT to the named process, and wait; SIGKILL when it stays."""
+        child = next(c for c in self._children if c.name == name)
+        _signal(child.process, signal.SIGINT)
+        _wait(child.process, self.stop_seconds)
+        self._children.remove(child)
+
     def stop(self) -> None:
         """SIGINT to all, in the order they were started last to first; SIGKILL to what stays."""
         for child in reversed(self._children):
             _signal(child.process, signal.SIGINT)
         deadline = time.monotonic() + self.stop_seconds
         for child in self._children:
-            try:
-                child.process.wait(max(0.0, deadline - time.monotonic()))
-            except subprocess.TimeoutExpired:
-                _signal(child.process, signal.SIGKILL)
-                child.process.wait()
+            _wait(child.process, max(0.0, deadline - time.monotonic()))
         self._children.clear()
 
     def __enter__(self) -> Processes:
@@ -93,6 +96,14 @@ def _signal(process: subprocess.Popen[bytes], number: signal.Signals) -> None:
     """Signal the process's whole session, as a terminal would."""
     if process.poll() is None:
         os.killpg(process.pid, number)
+
+
+def _wait(process: subprocess.Popen[bytes], seconds: float) -> None:
+    try:
+        process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        _signal(process, signal.SIGKILL)
+        process.wait()
 
 
 def _tail(log: Path) -> str:

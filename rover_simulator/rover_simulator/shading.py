@@ -32,7 +32,7 @@ SKY_TINT = np.array([0, -9.3, -14.0], np.float32)
 SKY_SUNWARD, SKY_ELSEWHERE = 30.0, -11.0  # [levels] toward the sun, and the same everywhere
 
 SAND_TEXTURE = 0.8  # [levels] standard deviation
-WALL_TEXTURE, WALL_RUST = 0.38, 0.08  # shares of its colour: of light, and of red against blue
+WALL_TEXTURE, WALL_RUST = 0.38, 0.02  # shares of its colour: of light, and of red against blue
 
 
 def ground_colors(sand: NDArray[np.float32], shade: NDArray[np.float32]) -> NDArray[np.float32]:
