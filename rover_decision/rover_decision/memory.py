@@ -102,7 +102,7 @@ class Memory:
             blocked=self.blocked,
             visited=self.goals.visited(time),
             searched=self._searched.so_far(),
-            search=not collected and vehicle.sample_count > len(rocks),
+            search=not collected,
             last_goal=self.goals.last,
             home_by_crumbs=home_by_crumbs,
         )

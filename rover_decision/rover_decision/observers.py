@@ -16,7 +16,7 @@ PROGRESS_DISTANCE = 0.5  # [m]
 PROGRESS_TURN = math.radians(30.0)  # turning on the spot is progress too
 CIRCLE_STEERING = math.radians(8.0)  # [rad] to one side all the time
 CIRCLE_SECONDS = 10.0  # [s]
-SEARCH_RANGE = 6.0  # [m] a rock within is surely seen
+SEARCH_RANGE = 6.0  # [m] a rock beyond is rarely seen
 SEARCH_CELL = 1.0  # [m]
 SEARCH_FIELD = math.radians(45.0)  # [rad] to either side
 SEARCH_SLACK = 0.7  # [m] of a cell that may lie beyond the end of the free ground
@@ -77,17 +77,18 @@ class Odometer:
 
 
 class SearchedGround:
-    """Which ground was looked at from near."""
+    """From how near each piece of ground was looked at."""
 
     def __init__(self) -> None:
         self._geometry = GridGeometry.of_world(SEARCH_CELL)
-        self._mask = np.zeros((self._geometry.rows, self._geometry.cols), bool)
+        shape = (self._geometry.rows, self._geometry.cols)
+        self._distance = np.full(shape, np.inf, np.float32)
         reach = round(SEARCH_RANGE / SEARCH_CELL)
         steps = np.arange(-reach, reach + 1)
         self._rows, self._cols = (axis.ravel() for axis in np.meshgrid(steps, steps))
 
     def update(self, pose: Pose, scan: FreeScan) -> None:
-        """Mark the cells in view that no obstacle hides."""
+        """Look at the cells in view that no obstacle hides."""
         row0, col0 = self._geometry.cell_of(pose.x, pose.y)
         row, col = self._rows + row0, self._cols + col0
         x, y = self._geometry.center_of(row, col)
@@ -98,10 +99,11 @@ class SearchedGround:
         near = (distance < SEARCH_RANGE) & (distance < free + SEARCH_SLACK)
         seen = (near & (np.abs(bearing) < SEARCH_FIELD)) | (distance < 1.0)
         seen &= self._geometry.contains(row, col)
-        self._mask[row[seen], col[seen]] = True
+        row, col, distance = row[seen], col[seen], distance[seen]
+        self._distance[row, col] = np.minimum(self._distance[row, col], distance)
 
     def so_far(self) -> Searched:
-        return Searched(self._geometry, self._mask.copy())
+        return Searched(self._geometry, self._distance.copy())
 
 
 def _moved(a: Pose, b: Pose) -> bool:

@@ -37,6 +37,9 @@ TEXTURE_RANGE = 0.8  # [m] over which it fades
 JPEG_QUALITY = 75
 
 SAMPLE_RADIUS, SAMPLE_HEIGHT = 0.08, 0.13  # [m]
+# The original's samples stand at the floor's height where the ground of a wall's foot is higher,
+# but people chose their places so that they show.
+MOST_BURIED = 0.05  # [m]
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,11 @@ class Renderer:
     def __init__(self, world: World, terrain: Terrain) -> None:
         self._samples = world.samples.copy()
         self._solids = [terrain.triangles()]
-        self._solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
+        ground = terrain.height_at(world.samples[:, 0], world.samples[:, 1])
+        self._solids += [
+            _sample_mesh(float(x), float(y), max(0.0, float(height) - MOST_BURIED))
+            for (x, y), height in zip(world.samples, ground, strict=True)
+        ]
         self._solids += [boulders.mesh(boulder) for boulder in world.boulders]
         self._build_scene()
         self._terrain = terrain
@@ -190,13 +197,14 @@ def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
     return data.tobytes()
 
 
-def _sample_mesh(x: float, y: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """A rock of eight sides that stands on the ground."""
+def _sample_mesh(x: float, y: float, base: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """A rock of eight sides whose foot is at the height `base` [m]."""
     angle = np.arange(8) * math.pi / 4
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * SAMPLE_RADIUS
-    low = np.column_stack([ring + np.array([x, y]), np.zeros(8)])
-    high = np.column_stack([0.75 * ring + np.array([x, y]), np.full(8, 0.7 * SAMPLE_HEIGHT)])
-    top = np.array([[x, y, SAMPLE_HEIGHT]])
+    low = np.column_stack([ring + np.array([x, y]), np.full(8, base)])
+    shoulder = np.full(8, base + 0.7 * SAMPLE_HEIGHT)
+    high = np.column_stack([0.75 * ring + np.array([x, y]), shoulder])
+    top = np.array([[x, y, base + SAMPLE_HEIGHT]])
     i, j = np.arange(8), (np.arange(8) + 1) % 8
     sides = np.concatenate(
         [

@@ -46,10 +46,10 @@ NO_WAY = Way(np.empty((0, 2)), np.empty(0))
 
 @dataclass(frozen=True)
 class Searched:
-    """Ground that was looked at from so near that a rock would have shown."""
+    """From how near each piece of ground was looked at: whether a rock would have shown."""
 
     geometry: GridGeometry
-    mask: NDArray[np.bool_]  # (rows, cols)
+    distance: NDArray[np.float32]  # (rows, cols) [m] the nearest look, inf where there was none
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class PlanRequest:
     blocked: tuple[Blocked, ...]
     visited: NDArray[np.float64]  # (n, 2) [m] goals that were reached and are still there
     searched: Searched | None
-    search: bool  # whether there are rocks left that nobody has seen
+    search: bool  # whether samples are left: rocks that nobody has seen, when none is in reach
     last_goal: Goal | None
     home_by_crumbs: bool = False  # the way home is to be made of the trail, not of the map
 

@@ -27,7 +27,7 @@ from rover_decision.planning.tour import MOST_STOPS, tour_costs
 
 REACH_FROM_BODY = 3.0  # [m] to the nearest drivable cell, from where the rover or its home is
 REACH_OF_FRONTIER = 10.0  # [m] from the place to look at it from
-REACH_OF_ROCK = 1.8  # [m] from where the approach by sight takes over
+REACH_OF_ROCK = 2.5  # [m] from the end of the way, where the approach by sight takes over
 VISITED_RADIUS = 1.5  # [m] a frontier this near to a place given up is that one
 SAME_GOAL = 4.0  # [m] a goal this near to the last one is the same, seen anew
 LOYALTY = 4.0  # [s] that another goal must save before the rover turns to it
@@ -35,6 +35,9 @@ TURN_SECONDS = 2.0  # [s] to stop for a turn on the spot, and to gather speed ag
 SHARP = math.radians(60.0)  # a turn that is made on the spot
 SPEED_PER_CLEARANCE = 1.6  # [1/s] of a way's speed limit
 SLOWEST = 0.8  # [m/s] limit in the narrowest place
+# [m] A rock in the open shows from the first on in every look, one half buried or behind the swell
+# of a wall's foot from the second on.
+SEARCH_DISTANCES = (5.0, 3.0)
 UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 
 
@@ -124,19 +127,22 @@ def _node_near(roadmap: Roadmap, point: tuple[float, float], reach: float) -> in
 def _unsearched(
     request: PlanRequest, roadmap: Roadmap, seconds: NDArray[np.float64]
 ) -> list[_Stop]:
-    """The nearest drivable place whose surroundings were not looked at from near."""
+    """The nearest drivable place that was not looked at from near, or else from nearer still."""
     if request.searched is None or len(roadmap) == 0:
         return []
     row, col = request.searched.geometry.cell_of(roadmap.x, roadmap.y)
-    left = ~request.searched.mask[row, col]
+    nearest_look = request.searched.distance[row, col]
+    at_hand = np.isfinite(seconds)
     for x, y in request.visited:
-        left &= np.hypot(roadmap.x - x, roadmap.y - y) > VISITED_RADIUS
-    cost = np.where(left, seconds, np.inf)
-    node = int(np.argmin(cost))
-    if not np.isfinite(cost[node]):
-        return []
-    goal = Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node]))
-    return [_Stop(goal, node)]
+        at_hand &= np.hypot(roadmap.x - x, roadmap.y - y) > VISITED_RADIUS
+    for distance in SEARCH_DISTANCES:
+        left = at_hand & (nearest_look > distance)
+        if left.any():
+            node = int(np.argmin(np.where(left, seconds, np.inf)))
+            return [
+                _Stop(Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node])), node)
+            ]
+    return []
 
 
 def _visited(frontier: Frontier, visited: NDArray[np.float64]) -> bool:
