@@ -59,9 +59,8 @@ def fly_job(job: Job) -> Flown:
 
 def failed_row(job: Job, error: BaseException) -> Result:
     """The row of a mission that raised."""
-    world = job.world().name
-    row = failed_result(world, job.strategy, job.seed, f"{type(error).__name__}: {error}")
-    return row | {"oracle_time": None}
+    why = f"{type(error).__name__}: {error}"
+    return failed_result(job.world_name, job.strategy, job.seed, why) | {"oracle_time": None}
 
 
 def _picture(world: World, end: LoopResult, result: Result) -> bytes:

@@ -60,6 +60,11 @@ class Job:
         return GENERATED if self.ground is None else self.ground.name
 
     @property
+    def world_name(self) -> str:
+        """As the world calls itself."""
+        return f"seed-{self.seed}" if self.ground is None else f"{self.ground.name}-{self.seed}"
+
+    @property
     def name(self) -> str:
         """Of its files in the result folder."""
         return f"{self.group}-{self.seed}-{self.strategy}"

@@ -18,7 +18,7 @@ from tqdm import tqdm
 
 from rover_bringup.command import run_command
 from rover_bringup.run import note, result_folder
-from rover_bringup.scoreboard.cluster import cluster, fly_all
+from rover_bringup.scoreboard.cluster import Outcome, cluster, fly_all
 from rover_bringup.scoreboard.errors import ScoreboardError
 from rover_bringup.scoreboard.fly import Flown, failed_row
 from rover_bringup.scoreboard.job import Ground, Job, make_jobs, parse_seeds
@@ -125,16 +125,24 @@ def _fly(options: argparse.Namespace, store: Store, left: Sequence[Job], total: 
         tqdm(total=total, initial=total - len(left), unit="mission", disable=None) as bar,
     ):
         bar.refresh()
-        for job, outcome in fly_all(client, left):
-            if isinstance(outcome, Flown):
-                result = outcome.result
-                store.add(job, result, outcome.picture)
-            else:
-                result = failed_row(job, outcome)
-                store.add(job, result, None)
-            with tqdm.external_write_mode():
-                note(_line(result))
-            bar.update()
+        try:
+            for job, outcome in fly_all(client, left):
+                _take(store, job, outcome)
+                bar.update()
+        except KeyboardInterrupt:
+            note("stopping; the missions in the air are lost")
+            raise
+
+
+def _take(store: Store, job: Job, outcome: Outcome) -> None:
+    """Keep what came back, and say so."""
+    if isinstance(outcome, Flown):
+        result, picture = outcome.result, outcome.picture
+    else:
+        result, picture = failed_row(job, outcome), None
+    store.add(job, result, picture)
+    with tqdm.external_write_mode():
+        note(_line(result))
 
 
 def _line(result: dict) -> str:
