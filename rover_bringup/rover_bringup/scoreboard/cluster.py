@@ -37,8 +37,7 @@ def local_cluster(workers: int) -> Iterator[Client]:
             processes=True,
             host=HOST,
             memory_limit=0,  # a mission's memory does not grow; a limit would kill it half way
-            dashboard_address=None,
-            worker_dashboard_address=None,
+            dashboard_address=f"{HOST}:0",  # any free port; None would take a fixed one
             silence_logs=logging.CRITICAL,
         )
     with cluster, Client(cluster, timeout=CONNECT_SECONDS) as client:
