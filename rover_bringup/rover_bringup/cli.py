@@ -9,6 +9,7 @@ import sys
 COMMANDS = {
     "demo": ("rover_bringup.demo", "a whole mission in a small generated canyon, scored"),
     "mission": ("rover_bringup.mission", "a mission in the embedded simulator, to its end"),
+    "scoreboard": ("rover_bringup.scoreboard.main", "many missions without ROS, and their table"),
     "sim": ("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "replay": ("rover_bringup.replay", "play a recorded run through the graph and score the map"),
     "bench": ("rover_bringup.bench", "benchmarks: graph, perception, simulator"),

@@ -10,19 +10,25 @@ from rover_bringup.domain import NoFreeDomainError
 from rover_bringup.node_watch import GraphNotReadyError
 from rover_bringup.processes import ProcessDiedError
 from rover_bringup.results import SamplesError
+from rover_bringup.scoreboard.errors import ScoreboardError
+from rover_bringup.strategy import ParametersError
 from rover_common.scoring import TruthError
 from rover_simulator.recording import RecordingError
 from rover_simulator.replay import NoAnswerError
+from rover_simulator.world import WorldError
 
 EXPECTED = (
     GraphNotReadyError,
     NoAnswerError,
     NoFreeDomainError,
     OSError,
+    ParametersError,
     ProcessDiedError,
     RecordingError,
     SamplesError,
+    ScoreboardError,
     TruthError,
+    WorldError,
 )
 
 

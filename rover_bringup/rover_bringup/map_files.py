@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import BinaryIO
 
 import cv2
 import numpy as np
@@ -44,7 +45,7 @@ def save_map_server_pair(grid: GridMap, stem: Path) -> None:
 
 
 def draw_map(
-    path: Path,
+    file: Path | BinaryIO,
     grid: GridMap,
     track: NDArray[np.float64],
     rocks: Sequence[Rock],
@@ -52,7 +53,7 @@ def draw_map(
     samples: NDArray[np.float64] | None,
     title: str,
 ) -> None:
-    """Draw the map, with the truth beside it where there is one.
+    """Draw the map as PNG, with the truth beside it where there is one.
 
     track: (n, 2) driven positions [m]; truth: (200, 200) navigable cells; samples: (m, 2) true
     positions [m].
@@ -86,7 +87,7 @@ def draw_map(
             ax.plot(*np.transpose(xy), "D", color=YELLOW, mec="black", mew=0.5, markersize=5)
         _zoom(ax, classes, truth, extent)
     figure.suptitle(title)
-    figure.savefig(path)
+    figure.savefig(file, format="png")
 
 
 def _show(ax: Axes, classes: NDArray, colors: list[str], labels: list[str], extent: tuple) -> None:

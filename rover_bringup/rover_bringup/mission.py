@@ -6,18 +6,20 @@ import argparse
 import json
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from tqdm import tqdm
 
 from rover_bringup.command import run_command
+from rover_bringup.flight import Flight, mission_result, truth_of
+from rover_bringup.graph import default_parameters
 from rover_bringup.node_watch import GraphWatch
-from rover_bringup.results import Result, Truth, score, summary, write_results
+from rover_bringup.results import Result, summary, write_results
 from rover_bringup.run import Run, note, result_folder, running_graph
-from rover_simulator.main import add_world_options, world_of
+from rover_bringup.strategy import SYNTAX, Strategy
+from rover_simulator.main import FPS, add_world_options, fps_option, world_of
+from rover_simulator.simulation import START_TIME
 from rover_simulator.world import World
 
 SIMULATOR = "simulator"
@@ -26,17 +28,6 @@ OVERRIDES: dict[str, dict[str, object]] = {"bridge_node": {"answer_deadline": 10
 LOOK = 0.1  # [s] between looks at the mission
 MAP_SECONDS = 5.0  # [s] for the last map to arrive
 FINAL_STATES = ("DONE",)
-
-
-@dataclass(frozen=True)
-class Flight:
-    """What the simulator says of the run, beside what the rover believes."""
-
-    time: float  # [s] simulated
-    distance: float  # [m]
-    contacts: int  # times that a wall or a rock was touched
-    samples_left: int
-    track: NDArray[np.float64]  # (n, 2) [m] true positions, one a second
 
 
 def main(arguments: list[str]) -> int:
@@ -49,6 +40,10 @@ def parser(name: str, description: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"rover {name}", description=description)
     add = parser.add_argument
     add_world_options(parser)
+    add("--explorer", "--strategy", dest="strategy", type=Strategy.parse, metavar="NAME",
+        help=f"{SYNTAX} (default: what the parameters say)")  # fmt: skip
+    add("--fps", type=fps_option, default=FPS,
+        help="of the camera, made 50 over a whole number (default: %(default)s)")  # fmt: skip
     add("--time-limit", type=float, default=900.0, metavar="S",
         help="give up after this simulated time [s] (default: %(default)s)")  # fmt: skip
     add("--params", type=Path, metavar="YAML", help="parameters instead of those that ship")
@@ -60,7 +55,10 @@ def parser(name: str, description: str) -> argparse.ArgumentParser:
 def _mission(options: argparse.Namespace) -> None:
     world = world_of(options)
     folder = result_folder("mission", options.out)
-    result = fly(world, options.seed, options.time_limit, folder, options.params)
+    result = fly(
+        world, options.seed, options.time_limit, folder,
+        parameters=options.params, strategy=options.strategy, fps=options.fps,
+    )  # fmt: skip
     print(json.dumps(result) if options.json else summary(result))
     note(
         f"{result['reason']} after {result['time']} s of simulated time, "
@@ -69,44 +67,44 @@ def _mission(options: argparse.Namespace) -> None:
 
 
 def fly(
-    world: World, seed: int, time_limit: float, folder: Path, parameters: Path | None = None
+    world: World,
+    seed: int,
+    time_limit: float,
+    folder: Path,
+    *,
+    parameters: Path | None = None,
+    strategy: Strategy | None = None,
+    fps: float = FPS,
 ) -> Result:
-    """Run one mission to its end, score it, and write the result folder."""
+    """Run one mission to its end, score it, and write the result folder.
+
+    A strategy that is not given is that of the parameters.
+    """
     world.save(folder / "world")
+    strategy = strategy or Strategy.of_parameters(parameters or default_parameters())
+    overrides = OVERRIDES | {"decision_node": strategy.parameters()}
     start = time.monotonic()
-    with running_graph(folder, OVERRIDES, parameters) as run:
+    with running_graph(folder, overrides, parameters) as run:
         command = [
-            sys.executable, "-m", "rover_simulator.main",
-            "--host", run.host, "--port", str(run.port), "--world", str(folder / "world"),
-            "--seed", str(seed), "--rate", "fast", "--time-limit", str(time_limit), "--progress",
+            sys.executable, "-m", "rover_simulator.main", "--host", run.host,
+            "--port", str(run.port), "--world", str(folder / "world"), "--seed", str(seed),
+            "--rate", "fast", "--fps", str(fps), "--time-limit", str(START_TIME + time_limit),
+            "--progress",
         ]  # fmt: skip
         run.processes.start(SIMULATOR, command)
         done = _watch(run, time_limit)
         run.processes.end(SIMULATOR)  # only then has it said where the rover stands
         flight = read_flight(folder / "log" / f"{SIMULATOR}.log")
         mission = run.watch.mission
-        stamp = 0 if mission is None else round(flight.time * 1e9)
+        stamp = 0 if mission is None else round((START_TIME + flight.time) * 1e9)
         grid = run.watch.wait_map(stamp, MAP_SECONDS)
         rocks = run.watch.rocks()
-    truth = Truth(world.navigable, world.samples)
-    scores = score(grid, rocks, truth)
-    home = np.hypot(*(flight.track[-1] - (world.start.x, world.start.y)))
-    result = {
-        "done": done,
-        "reason": "home" if done else "the time is up",
-        "time": round(flight.time, 1),
-        **scores,
-        "samples_collected": len(world.samples) - flight.samples_left,
-        "samples_total": len(world.samples),
-        "home_distance": round(float(home), 2),
-        "distance": round(flight.distance, 1),
-        "contacts": flight.contacts,
-        "recoveries": None if mission is None else mission.recoveries,
-        "world": world.name,
-        "seed": seed,
-        "wall_seconds": round(time.monotonic() - start, 1),
-    }
-    write_results(folder, result, grid, flight.track, rocks, truth, world.name)
+    result = mission_result(
+        world, str(strategy), seed, done=done, flight=flight, grid=grid, rocks=rocks,
+        recoveries=None if mission is None else mission.recoveries,
+        wall_seconds=time.monotonic() - start,
+    )  # fmt: skip
+    write_results(folder, result, grid, flight.track, rocks, truth_of(world), world.name)
     return result
 
 
@@ -142,7 +140,9 @@ def read_flight(log: Path) -> Flight:
     """The progress lines that the simulator printed."""
     lines = [json.loads(line) for line in log.read_text().splitlines() if line.startswith("{")]
     if not lines:
-        lines = [{"time": 0, "distance": 0, "contacts": 0, "samples_left": 0, "x": 0, "y": 0}]
+        first = {"time": START_TIME, "distance": 0, "contacts": 0, "samples_left": 0}
+        lines = [first | {"x": 0, "y": 0}]
     last = lines[-1]
     track = np.array([(line["x"], line["y"]) for line in lines], float)
-    return Flight(last["time"], last["distance"], last["contacts"], last["samples_left"], track)
+    elapsed = last["time"] - START_TIME
+    return Flight(elapsed, last["distance"], last["contacts"], last["samples_left"], track)

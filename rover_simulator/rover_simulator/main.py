@@ -17,6 +17,8 @@ from rover_simulator.vehicle import STEP
 from rover_simulator.world import World, WorldError
 from rover_simulator.worldgen import generate_world, world_of_map
 
+FPS = 25.0  # frames per second unless others are asked for
+
 
 class Stop:
     """Set by SIGINT and SIGTERM."""
@@ -42,7 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
     except (TruthError, WorldError, OSError) as error:
         print(f"rover sim: {error}", file=sys.stderr)
         return 1
-    frame_steps = max(1, round(1.0 / (options.fps * STEP)))
+    frame_steps = frame_steps_of(options.fps)
     simulation = Simulation(world, options.seed, frame_steps)
     progress = Progress(simulation, options.progress)
     exchange: Exchange = FastExchange(simulation, progress.update)
@@ -56,6 +58,11 @@ def main(arguments: list[str] | None = None) -> int:
     )
     progress.report()
     return 0
+
+
+def frame_steps_of(fps: float) -> int:
+    """Physics steps in one frame at a frame rate [1/s]."""
+    return max(1, round(1.0 / (fps * STEP)))
 
 
 def add_world_options(parser: argparse.ArgumentParser) -> None:
@@ -87,7 +94,7 @@ def option_parser() -> argparse.ArgumentParser:
     add_world_options(parser)
     add("--rate", type=_checked_rate, default="realtime",
         help="realtime, fast (as the server answers), or N times real time")  # fmt: skip
-    add("--fps", type=_fps, default=25.0,
+    add("--fps", type=fps_option, default=FPS,
         help="frames per second, made 50 over a whole number (default: %(default)s)")  # fmt: skip
     add("--time-limit", type=float, default=float("inf"), metavar="S",
         help="end when the simulated time, which begins at 1 s, reaches this [s]")  # fmt: skip
@@ -102,7 +109,8 @@ def _port(text: str) -> int:
     return port
 
 
-def _fps(text: str) -> float:
+def fps_option(text: str) -> float:
+    """A frame rate from the command line."""
     fps = float(text)
     if not (math.isfinite(fps) and fps > 0):
         raise argparse.ArgumentTypeError("a positive number")

@@ -56,12 +56,16 @@ def generate_world(seed: int, size: float = 1.0) -> World:
 
 
 def world_of_map(path: Path, seed: int) -> World:
-    """A map's canyon, (200, 200) pixels, unflipped; the seed draws the samples and the start's yaw.
+    """The canyon of a map of 200 x 200 pixels, unflipped; raises TruthError for a bad one."""
+    return world_on_ground(load_truth(path), path.stem, seed)
+
+
+def world_on_ground(truth: NDArray[np.bool_], name: str, seed: int) -> World:
+    """A canyon of these navigable cells (200, 200); the seed draws samples and the start's yaw.
 
     The rover starts where it does in the original, or, where that is no ground, in the middle of
-    the ground nearest to the map's middle. Raises TruthError for a bad map.
+    the ground nearest to the map's middle.
     """
-    truth = load_truth(path)
     random = default_rng(seed)
     row, col = int(START_Y), int(START_X)
     x, y = START_X, START_Y
@@ -74,7 +78,7 @@ def world_of_map(path: Path, seed: int) -> World:
     labels, _ = ndimage.label(truth)
     start = Pose(float(x), float(y), float(random.uniform(-math.pi, math.pi)))
     samples = place_samples(labels == labels[row, col], start, random)
-    return World(f"{path.stem}-{seed}", truth, samples, start)
+    return World(f"{name}-{seed}", truth, samples, start)
 
 
 def _corridor(

@@ -20,7 +20,7 @@ from rover_perception.config import PerceptionConfig
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = sorted(path.parent.name for path in ROOT.glob("rover_*/package.xml"))
-MODULES = sorted(ROOT.glob("rover_*/rover_*/*.py"))
+MODULES = sorted(ROOT.glob("rover_*/rover_*/**/*.py"))
 CONFIGS = {
     "bridge_node": BridgeConfig,
     "perception_node": PerceptionConfig,
@@ -40,6 +40,11 @@ ROSDEP_KEYS = {
     "matplotlib": "python3-matplotlib",
     "yaml": "python3-yaml",
     "tqdm": "python3-tqdm",
+    "dask": "python3-distributed-pip",
+    "distributed": "python3-distributed-pip",
+    "jinja2": "python3-jinja2",
+    "networkx": "python3-networkx",
+    "tabulate": "python3-tabulate",
     "socketio": "python3-socketio",
     "engineio": "python3-engineio",
     "eventlet": "python3-eventlet",
@@ -84,7 +89,7 @@ def test_package_description(package):
     assert root.findtext("license") == "Apache-2.0"
     declared = {element.text for element in root if element.tag.endswith("depend")}
     imported = {
-        name for path in (ROOT / package / package).glob("*.py") for name in imports_of(path)
+        name for path in (ROOT / package / package).rglob("*.py") for name in imports_of(path)
     }
     needed = {name for name in imported if name in WITH_ROSDEP_KEY or name in PACKAGES}
     keys = {ROSDEP_KEYS.get(name, name) for name in needed - {package}}

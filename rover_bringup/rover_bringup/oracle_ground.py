@@ -1,0 +1,94 @@
+"""The ground as the oracle knows it: ways between cells, and which cell sees which."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import KDTree
+
+SIGHT_STEP = 0.5  # [m] between the points of a line of sight that are looked up
+# Links of a cell (rows up, columns right) with the cells that must be navigable between; the other
+# eight directions are their reverses.
+LINKS = {
+    (0, 1): (),
+    (1, 0): (),
+    (1, 1): ((0, 1), (1, 0)),
+    (1, -1): ((0, -1), (1, 0)),
+    (1, 2): ((0, 1), (1, 1)),
+    (2, 1): ((1, 0), (1, 1)),
+    (1, -2): ((0, -1), (1, -1)),
+    (2, -1): ((1, 0), (1, -1)),
+}
+
+
+class OracleGround:
+    """The cells of 1 m that can be reached from the start, numbered by row and column."""
+
+    def __init__(self, navigable: NDArray[np.bool_], start: tuple[float, float]) -> None:
+        """start [m]."""
+        labels, _ = ndimage.label(navigable)
+        rows, cols = np.nonzero(navigable)
+        first = int(np.argmin(np.hypot(cols + 0.5 - start[0], rows + 0.5 - start[1])))
+        self.cells = labels == labels[rows[first], cols[first]]
+        rows, cols = np.nonzero(self.cells)
+        centers = np.stack([cols, rows], axis=1) + 0.5
+        self.centers = centers.astype(np.float64)  # (n, 2) [m]
+        self._links = _links(self.cells)
+
+    def __len__(self) -> int:
+        return len(self.centers)
+
+    def nearest(self, point: tuple[float, float]) -> int:
+        """The cell whose centre is nearest to a point [m]."""
+        return int(np.argmin(np.hypot(*(self.centers - point).T)))
+
+    def ways_from(self, sources: list[int]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Shortest distances [m] and predecessors, both (sources, cells)."""
+        metres, before = dijkstra(
+            self._links, directed=False, indices=sources, return_predecessors=True
+        )
+        return metres, before
+
+    def sight(self, reach: float) -> NDArray[np.bool_]:
+        """Which cells see each other within a reach [m], (n, n), symmetric, true on the diagonal.
+
+        A line of sight is blocked by any cell between that is not navigable.
+        """
+        pairs = KDTree(self.centers).query_pairs(reach, output_type="ndarray")
+        pairs = pairs[np.lexsort(pairs.T)]
+        steps = int(np.ceil(reach / SIGHT_STEP))
+        for step in range(1, steps):
+            share = step / steps
+            ends = self.centers[pairs]  # (pairs, 2, 2)
+            points = (1 - share) * ends[:, 0] + share * ends[:, 1]
+            cols, rows = np.floor(points).astype(np.intp).T
+            pairs = pairs[self.cells[rows, cols]]
+        sees = np.eye(len(self), dtype=bool)
+        sees[pairs[:, 0], pairs[:, 1]] = sees[pairs[:, 1], pairs[:, 0]] = True
+        return sees
+
+
+def _links(cells: NDArray[np.bool_]) -> csr_array:
+    """Distances [m] between neighbouring cells; no link crosses a cell that is not navigable."""
+    count = int(np.count_nonzero(cells))
+    numbers = np.full(cells.shape, -1)
+    numbers[cells] = np.arange(count)
+    numbers = np.pad(numbers, 2, constant_values=-1)
+    inner = (slice(2, -2), slice(2, -2))
+
+    def shifted(up: int, right: int) -> NDArray[np.int_]:
+        return np.roll(numbers, (-up, -right), (0, 1))[inner]
+
+    starts, ends, metres = [], [], []
+    for (up, right), between in LINKS.items():
+        open_ = (numbers[inner] >= 0) & (shifted(up, right) >= 0)
+        for cell in between:
+            open_ &= shifted(*cell) >= 0
+        starts.append(numbers[inner][open_])
+        ends.append(shifted(up, right)[open_])
+        metres.append(np.full(len(starts[-1]), np.hypot(up, right)))
+    links = (np.concatenate(starts), np.concatenate(ends))
+    return csr_array((np.concatenate(metres), links), shape=(count, count))

@@ -1,0 +1,74 @@
+"""Strategies by name: how to explore, and how to come home."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+
+import yaml
+
+from rover_decision.config import DecisionConfig
+
+DEFAULTS = DecisionConfig()
+SYNTAX = "EXPLORER or EXPLORER+WAY_HOME, as in tour or frontier+bearing"
+
+
+class ParametersError(ValueError):
+    """A parameter file that cannot be read."""
+
+
+@dataclass(frozen=True)
+class Strategy:
+    """Two parameters of the decision node; written `explorer`, or `explorer+way_home`."""
+
+    explorer: str = DEFAULTS.explorer
+    way_home: str = DEFAULTS.way_home
+
+    @classmethod
+    def parse(cls, text: str) -> Strategy:
+        """Raises argparse.ArgumentTypeError, which says what there is."""
+        explorer, plus, way_home = text.strip().partition("+")
+        if not plus:
+            way_home = DEFAULTS.way_home
+        for name, value in (("explorer", explorer), ("way_home", way_home)):
+            if value not in choices(name):
+                raise argparse.ArgumentTypeError(
+                    f"no {name} '{value}'; there are {', '.join(choices(name))}"
+                )
+        return cls(explorer, way_home)
+
+    @classmethod
+    def of_parameters(cls, path: Path) -> Strategy:
+        """The one that a parameter file sets; raises ParametersError."""
+        try:
+            sections = yaml.safe_load(path.read_text()) or {}
+            values: dict[str, object] = {}
+            for node, section in sections.items():
+                if node.endswith("decision_node") or node == "/**":
+                    values |= section["ros__parameters"]
+        except (AttributeError, KeyError, TypeError, yaml.YAMLError) as error:
+            raise ParametersError(f"{path}: not a parameter file ({error})") from error
+        return cls(
+            str(values.get("explorer", DEFAULTS.explorer)),
+            str(values.get("way_home", DEFAULTS.way_home)),
+        )
+
+    def __str__(self) -> str:
+        usual = self.way_home == DEFAULTS.way_home
+        return self.explorer if usual else f"{self.explorer}+{self.way_home}"
+
+    def parameters(self) -> dict[str, object]:
+        """Of the decision node."""
+        return {"explorer": self.explorer, "way_home": self.way_home}
+
+    def config(self) -> DecisionConfig:
+        """All other parameters at their defaults."""
+        return replace(DEFAULTS, explorer=self.explorer, way_home=self.way_home)
+
+
+def choices(parameter: str) -> tuple[str, ...]:
+    """The values that a parameter of the decision node can have."""
+    (field,) = (field for field in fields(DecisionConfig) if field.name == parameter)
+    found: tuple[str, ...] = field.metadata["parameter"].choices
+    return found
