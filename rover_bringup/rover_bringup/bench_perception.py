@@ -171,7 +171,7 @@ class _Stages:
         view = self.timed("view", View.of, ROVER_CAMERA, pose)
         if not view.usable:
             return
-        mask = self.timed("rock_mask", rock_mask, image)
+        mask = self.timed("rock_mask", rock_mask, image, view)
         self.timed("rocks", detect_rocks, mask, view, pose)
         columns = self.timed("classes", ground_columns, image, mask, view)
         self.timed("evidence", self._grid.add, view, columns, pose)

@@ -77,7 +77,7 @@ class Perception:
             nothing = PolarArray.empty()
             rocks = self._rocks.believed()
             return Percept(frame.stamp, nothing, nothing, scan, rocks, map_stamp)
-        mask = rock_mask(frame.image)
+        mask = rock_mask(frame.image, view)
         sightings = detect_rocks(mask, view, pose)
         columns = ground_columns(frame.image, mask if len(sightings.x) else None, view)
         x, y = self._evidence.add(view, columns, pose)
