@@ -11,7 +11,7 @@ COMMANDS = {
     "mission": ("rover_bringup.mission", "a mission in the embedded simulator, to its end"),
     "sim": ("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "replay": ("rover_bringup.replay", "play a recorded run through the graph and score the map"),
-    "bench": ("rover_bringup.bench", "benchmarks: graph, perception, simulator"),
+    "bench": ("rover_bringup.bench", "benchmarks: graph, perception, simulator, tours"),
 }
 
 

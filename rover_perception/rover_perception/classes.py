@@ -18,6 +18,8 @@ GROUND_SHARE = 0.73
 GROUND_BEFORE = (5, 31)  # [px] columns and rows over which the ground before a pixel is averaged
 # Shadowed blends of 0.6 to 0.8 have red 170 +- 15, sky up to 163; walls 36 +- 19.
 LEAST_RED = 150
+# Ground after ground of a mean red (index) is brighter than this.
+LEVEL_AFTER = np.maximum(np.rint(GROUND_SHARE * np.arange(256)), LEAST_RED).astype(np.uint8)
 # Yellow samples: blue is 0.08 (near) to 0.5 (12 m away) of green; sand 0.93, walls 0.84. The JPEG
 # files hold colour at half resolution, which spreads yellow over the bright sand around a sample;
 # there it is paler, and brighter (green 225 +- 18) than the sample itself (at most 194).
@@ -103,8 +105,7 @@ def _run_of_ground(obstacle: cv2.typing.MatLike) -> NDArray[np.intp]:
 def _ground_level(red: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """The red (rows, width) above which a pixel is ground, by the ground below it."""
     before = cv2.blur(red, GROUND_BEFORE, anchor=(-1, 0), borderType=cv2.BORDER_REPLICATE)
-    level = np.asarray(cv2.convertScaleAbs(before, alpha=GROUND_SHARE), np.uint8)
-    return np.maximum(level, np.uint8(LEAST_RED))
+    return np.asarray(cv2.LUT(before, LEVEL_AFTER), np.uint8)
 
 
 def _blend(
@@ -112,9 +113,8 @@ def _blend(
 ) -> NDArray[np.floating]:
     """Where between the centres of the two pixels the level is crossed, from the edge [px]."""
     column = np.arange(red.shape[1])
-    inside = red[np.clip(last, 0, len(red) - 1), column].astype(float)
-    outside = red[np.clip(last - 1, 0, len(red) - 1), column].astype(float)
-    share = (level[np.clip(last - 1, 0, len(red) - 1), column] - outside) / np.maximum(
-        inside - outside, 1.0
-    )
-    return np.clip(share, 0.0, 1.0) - 0.5
+    within, beyond = np.minimum(last, len(red) - 1), np.maximum(last - 1, 0)
+    inside = red[within, column].astype(float)
+    outside = red[beyond, column].astype(float)
+    share = (level[beyond, column] - outside) / np.maximum(inside - outside, 1.0)
+    return np.minimum(np.maximum(share, 0.0), 1.0) - 0.5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -85,7 +85,7 @@ def _same_rendering(first: CameraFrame, second: CameraFrame) -> bool:
 
 
 def _check_pose(pose: Pose) -> None:
-    if not all(map(math.isfinite, astuple(pose))):
+    if not all(map(math.isfinite, (pose.x, pose.y, pose.yaw, pose.pitch, pose.roll))):
         raise PoseError(f"pose is not finite: {pose}")
     if not (0.0 <= pose.x < WORLD_SIZE and 0.0 <= pose.y < WORLD_SIZE):
         raise OutsideError(f"pose is outside of the world: {pose}")
