@@ -20,6 +20,12 @@ GROUND_BEFORE = (5, 31)  # [px] columns and rows over which the ground before a 
 LEAST_RED = 150
 # Ground after ground of a mean red (index) is brighter than this.
 LEVEL_AFTER = np.maximum(np.rint(GROUND_SHARE * np.arange(256)), LEAST_RED).astype(np.uint8)
+# Sky at the image's lower edge: the nose is in a wall, which hides nothing from inside. In the
+# recordings sky has blue at 0.89 of its red (5 to 95 %: 0.874 to 0.915) and red up to 189 (99 %);
+# sand as dark has 0.84, and 99.9 % of it less than 0.86. Brighter sand can be as grey.
+SKY_BLUE_OF_RED = 0.87
+SKY_RED = 200
+NEAREST_ROWS = 8  # [px] averaged, against the blur of colours in the JPEG file
 # Yellow samples: blue is 0.08 (near) to 0.5 (12 m away) of green; sand 0.93, walls 0.84. The JPEG
 # files hold colour at half resolution, which spreads yellow over the bright sand around a sample;
 # there it is paler, and brighter (green 225 +- 18) than the sample itself (at most 194).
@@ -43,7 +49,7 @@ class Columns:
 
     horizon: NDArray[np.floating]  # (width,) row of the horizon [px]
     reach: NDArray[np.floating]  # (width,) row where the ground ends [px], never above the horizon
-    blocked: NDArray[np.bool_]  # (width,) whether an obstacle stands there
+    blocked: NDArray[np.bool_]  # (width,) whether an obstacle is seen there
 
 
 def rock_mask(image: NDArray[np.uint8], view: View) -> NDArray[np.uint8]:
@@ -85,7 +91,16 @@ def ground_columns(
     slope = reach < horizon + SLOPE_MARGIN
     near = horizon + view.height * view.camera.focal / SLOPE_RANGE
     reach = np.where(slope, np.maximum(reach, near), reach)
-    return Columns(horizon, np.maximum(reach, horizon + 0.5), ~slope)
+    sky = _sees_sky(image[-NEAREST_ROWS:])
+    reach = np.where(sky, float(height), reach)
+    return Columns(horizon, np.maximum(reach, horizon + 0.5), ~(slope | sky))
+
+
+def _sees_sky(nearest: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Columns (width,) whose nearest pixels (rows, width, 3) are sky, of which nothing is known."""
+    mean = np.asarray(cv2.reduce(nearest, 0, cv2.REDUCE_AVG, dtype=cv2.CV_32F))[0]
+    red, blue = mean[:, 0], mean[:, 2]
+    return np.asarray((blue > SKY_BLUE_OF_RED * red) & (red < SKY_RED) & (red > LEAST_RED))
 
 
 def _first_row(view: View, height: int) -> int:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scene import SHADOWED_SAND, SKY, WALL, draw
+from scene import BRIGHT_SKY, SHADOWED_SAND, SKY, WALL, draw
 
 from rover_common.dataflow import CameraFrame
 from rover_common.geometry import Pose
@@ -180,6 +180,17 @@ def test_a_picture_without_ground_maps_nothing_free(color):
     image = np.full((160, 320, 3), color, np.uint8)
     cells = mapped([CameraFrame(1, Pose(90, 100, 0), image)] * 5)
     assert not navigable_cells(cells).any()
+
+
+def test_from_inside_of_a_wall_nothing_is_known():
+    """Its inner side shows nothing: there is sky below the horizon, as bright as sand in shadow."""
+    image = np.full((160, 320, 3), BRIGHT_SKY, np.uint8)
+    core = Perception(LIVE)
+    for index in range(5):
+        percept = core.process(CameraFrame(1 + index, Pose(90, 100, 0), image))
+    assert (core.world_map().cells == -1).all()
+    assert len(percept.nav.ranges) == 0
+    assert (percept.scan.ranges[np.isfinite(percept.scan.ranges)] < 1.0).all()
 
 
 def test_a_white_picture_is_trusted_near_the_rover_only():
