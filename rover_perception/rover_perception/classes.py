@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import cv2
@@ -105,8 +106,7 @@ def _sees_sky(nearest: NDArray[np.uint8]) -> NDArray[np.bool_]:
 
 def _first_row(view: View, height: int) -> int:
     """The first row in which ground may show, and some above to see whether it goes on there."""
-    edges = view.horizon(np.array([0.0, view.camera.width]))
-    return int(np.clip(np.floor(edges.min()) - ABOVE_HORIZON, 0, height - 2))
+    return min(max(math.floor(view.highest_horizon) - ABOVE_HORIZON, 0), height - 2)
 
 
 def _run_of_ground(obstacle: cv2.typing.MatLike) -> NDArray[np.intp]:

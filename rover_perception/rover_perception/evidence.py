@@ -44,7 +44,7 @@ class EvidenceGrid:
         self.free_looks = np.zeros_like(self.free)
         self.foot_looks = np.zeros_like(self.free)
         self._reach = math.ceil(max_range / geometry.resolution)  # cells
-        self._ahead = _cells_by_heading(max_range, geometry.resolution)
+        self._ahead = _cells_by_heading(max_range, geometry)
 
     def add(self, view: View, columns: Columns, pose: Pose) -> tuple[NDArray, NDArray]:
         """Add one frame; returns the level-frame points (x, y) [m] of the cells it saw free."""
@@ -69,8 +69,8 @@ class EvidenceGrid:
     def _add_free(self, cell: NDArray, margin: NDArray, squared_distance: NDArray) -> None:
         """`margin` in standard deviations, `squared_distance` [m^2] of each cell."""
         sure = 1.0 - np.exp(-0.5 * np.square(margin))
-        self.free.reshape(-1)[cell] += sure * _weight(squared_distance)
-        self.free_looks.reshape(-1)[cell] += sure
+        _add_at(self.free, cell, sure * _weight(squared_distance))
+        _add_at(self.free_looks, cell, sure)
 
     def _add_blocked(
         self, view: View, cell: NDArray, foot: NDArray, below: NDArray, error: NDArray
@@ -85,27 +85,32 @@ class EvidenceGrid:
         foot_rows = scale * FOOT_DEPTH / squared_distance
         sure = 1.0 - np.exp(-0.5 * np.square(foot_rows / error[body]))
         guess = np.minimum(1.0, np.square(FOOT_DEPTH / behind))
-        self.blocked.reshape(-1)[cell] += sure * guess * _weight(squared_distance)
-        self.foot_looks.reshape(-1)[cell] += np.where(behind < FOOT_DEPTH, sure, 0.0)
+        _add_at(self.blocked, cell, sure * guess * _weight(squared_distance))
+        near = np.flatnonzero(behind < FOOT_DEPTH)
+        _add_at(self.foot_looks, cell[near], sure[near])
 
     def _cells_around(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray]:
         """Flat indices of the cells that may be in the fan, and their level-frame points [m]."""
         geometry = self.geometry
-        row, col, north, east = self._ahead[round(pose.yaw / (2.0 * np.pi) * HEADINGS) % HEADINGS]
+        ahead = self._ahead[round(pose.yaw / (2.0 * np.pi) * HEADINGS) % HEADINGS]
+        row, col, cell, north, east = ahead
         row0, col0 = map(int, geometry.cell_of(pose.x, pose.y))
         center_x, center_y = map(float, geometry.center_of(row0, col0))
         nearest = min(row0, col0, geometry.rows - 1 - row0, geometry.cols - 1 - col0)
         if nearest < self._reach:  # to the grid's border
             inside = np.flatnonzero(geometry.contains(row + row0, col + col0))
-            row, col, north, east = row[inside], col[inside], north[inside], east[inside]
-        cell = row * geometry.cols + (col + (row0 * geometry.cols + col0))
+            cell, north, east = cell[inside], north[inside], east[inside]
         c, s = math.cos(pose.yaw), math.sin(pose.yaw)
         dx, dy = east + (center_x - pose.x), north + (center_y - pose.y)
-        return cell, c * dx + s * dy, c * dy - s * dx
+        return cell + (row0 * geometry.cols + col0), c * dx + s * dy, c * dy - s * dx
 
 
-def _cells_by_heading(max_range: float, resolution: float) -> list[tuple[NDArray, ...]]:
-    """The cells in range for each heading: steps in rows and columns, the same [m] as float32."""
+def _cells_by_heading(max_range: float, geometry: GridGeometry) -> list[tuple[NDArray, ...]]:
+    """The cells in range for each heading, from the rover's.
+
+    Each as steps in rows, in columns and in flat indices, then north and east [m] as float32.
+    """
+    resolution = geometry.resolution
     reach = int(np.ceil(max_range / resolution))
     steps = np.arange(-reach, reach + 1, dtype=np.int32)
     grid_row, grid_col = np.meshgrid(steps, steps, indexing="ij")
@@ -121,8 +126,14 @@ def _cells_by_heading(max_range: float, resolution: float) -> list[tuple[NDArray
         inside = (aside < math.atan(FAN) + spare) & (distance > NEAR - resolution)
         cells = row[inside], col[inside]
         metres = ((step * resolution).astype(np.float32) for step in cells)
-        lists.append((*cells, *metres))
+        flat = cells[0].astype(np.intp) * geometry.cols + cells[1]
+        lists.append((*cells, flat, *metres))
     return lists
+
+
+def _add_at(sums: NDArray, cell: NDArray, amount: NDArray) -> None:
+    """Add to the cells of a grid, by their flat indices; faster than `sums[cell] += amount`."""
+    np.add.at(sums.reshape(-1), cell, amount)
 
 
 def _weight(squared_distance: NDArray) -> NDArray:
