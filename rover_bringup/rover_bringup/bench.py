@@ -9,6 +9,7 @@ BENCHMARKS = {
     "graph": ("rover_bringup.bench_graph", "telemetry to command through the three nodes"),
     "simulator": ("rover_bringup.bench_simulator", "the embedded simulator against recordings"),
     "perception": ("rover_bringup.bench_perception", "time per frame and map scores"),
+    "tours": ("rover_bringup.bench_tours", "maps of whole missions, driven steadily and roughly"),
 }
 
 

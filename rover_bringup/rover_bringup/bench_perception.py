@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="rover bench perception", description=__doc__)
     add = parser.add_argument
     add("--generated", action="store_true", help="use generated canyons in any case")
+    add("--seeds", type=int, nargs="+", default=SEEDS, help="of those (default: %(default)s)")
     add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
     add("--json", action="store_true", help="print the result as one JSON object")
     return parser
@@ -70,10 +71,10 @@ def _parser() -> argparse.ArgumentParser:
 def _bench(options: argparse.Namespace) -> None:
     cv2.setNumThreads(1)
     folder = result_folder("bench-perception", options.out)
-    courses = _generated_courses(folder) if options.generated else _recorded_courses()
+    courses = [] if options.generated else _recorded_courses()
     times: dict[str, list[float]] = {}
     rows, curves = [], []
-    for course in courses or _generated_courses(folder):
+    for course in courses or _generated_courses(folder, options.seeds):
         row, ours, reference = _run_course(course, times)
         rows.append(row)
         curves += [Curve(course.name, "ours", ours), Curve(course.name, "reference", reference)]
@@ -103,11 +104,11 @@ def _samples_beside(folder: Path) -> Path | None:
     return next((path for path in candidates if path.is_file()), None)
 
 
-def _generated_courses(folder: Path) -> list[Course]:
+def _generated_courses(folder: Path, seeds: Sequence[int]) -> list[Course]:
     from rover_simulator.recorder import record_drive  # renders: slow to import
 
-    note(f"rendering drives through canyons {', '.join(map(str, SEEDS))}")
-    drives = [record_drive(folder / f"canyon-{seed}", seed) for seed in SEEDS]
+    note(f"rendering drives through canyons {', '.join(map(str, seeds))}")
+    drives = [record_drive(folder / f"canyon-{seed}", seed) for seed in seeds]
     return [
         Course(drive.folder.name, drive.folder, Truth.load(drive.truth, drive.samples))
         for drive in drives
@@ -171,7 +172,7 @@ class _Stages:
         view = self.timed("view", View.of, ROVER_CAMERA, pose)
         if not view.usable:
             return
-        mask = self.timed("rock_mask", rock_mask, image)
+        mask = self.timed("rock_mask", rock_mask, image, view)
         self.timed("rocks", detect_rocks, mask, view, pose)
         columns = self.timed("classes", ground_columns, image, mask, view)
         self.timed("evidence", self._grid.add, view, columns, pose)

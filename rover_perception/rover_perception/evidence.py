@@ -27,7 +27,6 @@ FOOT_DEPTH = 0.5  # [m] of an obstacle behind its foot that is taken as seen
 BODY_DEPTH = 6.0  # [m] of an obstacle that is guessed at, falling with the square of the depth
 # A pixel's length on the ground grows with the square of the range; weight is its inverse square.
 FULL_WEIGHT_RANGE = 2.0  # [m] up to here, every look counts the same
-WEIGHT_POWER = 4
 NEAR = 0.7  # [m] the camera sees no ground nearer than this
 # The camera's fan: 54.5 degrees to either side of a centre 0.43 m ahead; tan = 1.4.
 FAN = 1.5  # [m/m] aside per ahead
@@ -44,64 +43,74 @@ class EvidenceGrid:
         # sure looks from any range: at free ground, and at the foot of an obstacle
         self.free_looks = np.zeros_like(self.free)
         self.foot_looks = np.zeros_like(self.free)
-        self._ahead = _cells_by_heading(max_range, geometry.resolution)
+        self._reach = math.ceil(max_range / geometry.resolution)  # cells
+        self._ahead = _cells_by_heading(max_range, geometry)
 
     def add(self, view: View, columns: Columns, pose: Pose) -> tuple[NDArray, NDArray]:
         """Add one frame; returns the level-frame points (x, y) [m] of the cells it saw free."""
-        row, col, x, y = self._cells_ahead(pose)
+        cell, x, y = self._cells_around(pose)
         u, v, depth = view.pixels(x, y)
-        in_image = (u >= 0) & (u < len(columns.reach)) & (v < view.camera.height)
-        seen = np.flatnonzero((depth > 0.1) & in_image)
-        cell, x, y = row[seen] * self.geometry.cols + col[seen], x[seen], y[seen]
+        in_image = (depth > 0.1) & (u >= 0) & (u < len(columns.reach)) & (v < view.camera.height)
+        seen = np.flatnonzero(in_image & (x > NEAR))
+        cell, x, y = cell[seen], x[seen], y[seen]
         column, v = u[seen].astype(np.intp), v[seen]
         below = v - columns.horizon.astype(np.float32)[column]
         margin = v - columns.reach.astype(np.float32)[column]
-        spread = view.height_error + FLOOR_ERROR / view.height
-        error = np.sqrt(EDGE_ERROR**2 + (below * spread) ** 2)
+        spread = np.float32(view.height_error + FLOOR_ERROR / view.height)
+        error = np.sqrt(EDGE_ERROR**2 + np.square(below * spread))
         is_free = margin > 0
         free = np.flatnonzero(is_free)
-        self._add_free(cell[free], margin[free] / error[free], np.hypot(x[free], y[free]))
+        x, y = x[free], y[free]
+        self._add_free(cell[free], margin[free] / error[free], x * x + y * y)
         foot = np.flatnonzero(~is_free & columns.blocked[column])
         self._add_blocked(view, cell[foot], (below - margin)[foot], below[foot], error[foot])
-        return x[free], y[free]
+        return x, y
 
-    def _add_free(self, cell: NDArray, margin: NDArray, distance: NDArray) -> None:
-        """`margin` in standard deviations, `distance` [m] of each cell."""
-        sure = 1.0 - np.exp(-0.5 * margin**2)
-        self.free.reshape(-1)[cell] += sure * _weight(distance)
-        self.free_looks.reshape(-1)[cell] += sure
+    def _add_free(self, cell: NDArray, margin: NDArray, squared_distance: NDArray) -> None:
+        """`margin` in standard deviations, `squared_distance` [m^2] of each cell."""
+        sure = 1.0 - np.exp(-0.5 * np.square(margin))
+        _add_at(self.free, cell, sure * _weight(squared_distance))
+        _add_at(self.free_looks, cell, sure)
 
     def _add_blocked(
         self, view: View, cell: NDArray, foot: NDArray, below: NDArray, error: NDArray
     ) -> None:
         """Cells behind an obstacle; `foot` and `below` are its and their rows under the horizon."""
-        scale = view.height * view.camera.focal  # [m px] range times rows below the horizon
-        distance = scale / np.maximum(foot, 0.5)
-        behind = scale / np.maximum(below, 0.1) - distance
-        body = behind < BODY_DEPTH
-        cell, distance, behind = cell[body], distance[body], np.maximum(behind[body], 0.01)
-        foot_rows = scale * FOOT_DEPTH / distance**2
-        sure = 1.0 - np.exp(-0.5 * (foot_rows / error[body]) ** 2)
-        guess = np.minimum(1.0, (FOOT_DEPTH / behind) ** 2)
-        self.blocked.reshape(-1)[cell] += sure * guess * _weight(distance)
-        self.foot_looks.reshape(-1)[cell] += np.where(behind < FOOT_DEPTH, sure, 0.0)
+        scale = np.float32(view.height * view.camera.focal)  # [m px] range times rows below horizon
+        distance = scale / np.maximum(foot, np.float32(0.5))
+        behind = scale / np.maximum(below, np.float32(0.1)) - distance
+        body = np.flatnonzero(behind < BODY_DEPTH)
+        cell, behind = cell[body], np.maximum(behind[body], np.float32(0.01))
+        squared_distance = np.square(distance[body])
+        foot_rows = scale * FOOT_DEPTH / squared_distance
+        sure = 1.0 - np.exp(-0.5 * np.square(foot_rows / error[body]))
+        guess = np.minimum(1.0, np.square(FOOT_DEPTH / behind))
+        _add_at(self.blocked, cell, sure * guess * _weight(squared_distance))
+        near = np.flatnonzero(behind < FOOT_DEPTH)
+        _add_at(self.foot_looks, cell[near], sure[near])
 
-    def _cells_ahead(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-        """Rows and columns inside the grid ahead of the rover, and their level-frame points [m]."""
+    def _cells_around(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray]:
+        """Flat indices of the cells that may be in the fan, and their level-frame points [m]."""
         geometry = self.geometry
-        row, col, north, east = self._ahead[round(pose.yaw / (2.0 * np.pi) * HEADINGS) % HEADINGS]
-        row0, col0 = geometry.cell_of(pose.x, pose.y)
-        center_x, center_y = geometry.center_of(row0, col0)
+        ahead = self._ahead[round(pose.yaw / (2.0 * np.pi) * HEADINGS) % HEADINGS]
+        row, col, cell, north, east = ahead
+        row0, col0 = map(int, geometry.cell_of(pose.x, pose.y))
+        center_x, center_y = map(float, geometry.center_of(row0, col0))
+        nearest = min(row0, col0, geometry.rows - 1 - row0, geometry.cols - 1 - col0)
+        if nearest < self._reach:  # to the grid's border
+            inside = np.flatnonzero(geometry.contains(row + row0, col + col0))
+            cell, north, east = cell[inside], north[inside], east[inside]
         c, s = math.cos(pose.yaw), math.sin(pose.yaw)
-        dx, dy = east + np.float32(center_x - pose.x), north + np.float32(center_y - pose.y)
-        x, y = c * dx + s * dy, c * dy - s * dx
-        row, col = row + row0, col + col0
-        ahead = np.flatnonzero((x > NEAR) & (np.abs(y) < FAN * x) & geometry.contains(row, col))
-        return row[ahead], col[ahead], x[ahead], y[ahead]
+        dx, dy = east + (center_x - pose.x), north + (center_y - pose.y)
+        return cell + (row0 * geometry.cols + col0), c * dx + s * dy, c * dy - s * dx
 
 
-def _cells_by_heading(max_range: float, resolution: float) -> list[tuple[NDArray, ...]]:
-    """The cells in range for each heading: steps in rows and columns, the same [m] as float32."""
+def _cells_by_heading(max_range: float, geometry: GridGeometry) -> list[tuple[NDArray, ...]]:
+    """The cells in range for each heading, from the rover's.
+
+    Each as steps in rows, in columns and in flat indices, then north and east [m] as float32.
+    """
+    resolution = geometry.resolution
     reach = int(np.ceil(max_range / resolution))
     steps = np.arange(-reach, reach + 1, dtype=np.int32)
     grid_row, grid_col = np.meshgrid(steps, steps, indexing="ij")
@@ -117,10 +126,16 @@ def _cells_by_heading(max_range: float, resolution: float) -> list[tuple[NDArray
         inside = (aside < math.atan(FAN) + spare) & (distance > NEAR - resolution)
         cells = row[inside], col[inside]
         metres = ((step * resolution).astype(np.float32) for step in cells)
-        lists.append((*cells, *metres))
+        flat = cells[0].astype(np.intp) * geometry.cols + cells[1]
+        lists.append((*cells, flat, *metres))
     return lists
 
 
-def _weight(distance: NDArray) -> NDArray:
-    """What a look from a distance [m] counts."""
-    return np.minimum(1.0, (FULL_WEIGHT_RANGE / distance) ** WEIGHT_POWER)
+def _add_at(sums: NDArray, cell: NDArray, amount: NDArray) -> None:
+    """Add to the cells of a grid, by their flat indices; faster than `sums[cell] += amount`."""
+    np.add.at(sums.reshape(-1), cell, amount)
+
+
+def _weight(squared_distance: NDArray) -> NDArray:
+    """What a look from a distance counts, by its square [m^2]."""
+    return np.minimum(1.0, np.square(FULL_WEIGHT_RANGE**2 / squared_distance))

@@ -24,7 +24,8 @@ from rover_common.node_parameters import declare_parameters
 from rover_common.node_runner import run_node
 from rover_common.stamp_join import StampJoin
 from rover_perception.config import PerceptionConfig
-from rover_perception.perception import FrameError, Perception
+from rover_perception.frame_gate import FrameError
+from rover_perception.perception import Perception
 from rover_perception.vision import vision_image
 
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
@@ -91,6 +92,7 @@ class PerceptionNode(Node):
             self._drop("frame_image_encoding", error)
         else:
             self._diagnostics.counts["frames"] += 1
+            self._diagnostics.counts["map_restarts"] = self._core.restarts
             self._publish(percept)
 
     def _drop(self, counter: str, error: Exception) -> None:

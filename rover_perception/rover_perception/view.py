@@ -54,9 +54,24 @@ class View:
 
     def horizon(self, u: Array) -> Array:
         """Row of the horizon in each column u [px]."""
-        left = (self.camera.center_u - u) / self.camera.focal
-        up = -(self.tilt[2, 0] + self.tilt[2, 1] * left) / self.tilt[2, 2]
-        return self.camera.center_v - self.camera.focal * up
+        first, last = self._horizon_at_edges()
+        return first + (last - first) / self.camera.width * u
+
+    @property
+    def highest_horizon(self) -> float:
+        """Row of the horizon [px] at the image's edge where it stands highest."""
+        return min(self._horizon_at_edges())
+
+    def _horizon_at_edges(self) -> tuple[float, float]:
+        """Rows of the horizon [px], a straight line, at the image's left and right edge."""
+        camera = self.camera
+        ahead, left, up = self.tilt[2].tolist()
+        left_edge = camera.center_u / camera.focal
+        right_edge = (camera.center_u - camera.width) / camera.focal
+        return (
+            camera.center_v + camera.focal * (ahead + left * left_edge) / up,
+            camera.center_v + camera.focal * (ahead + left * right_edge) / up,
+        )
 
     def ground(self, u: Array, v: Array, level: float = 0.0) -> tuple[Array, Array]:
         """Points (x, y) [m] of the level frame, `level` [m] above the ground, under the pixels.
@@ -65,12 +80,11 @@ class View:
         """
         left = (self.camera.center_u - u) / self.camera.focal
         up = (self.camera.center_v - v) / self.camera.focal
-        t = self.tilt
-        down = -(t[2, 0] + t[2, 1] * left + t[2, 2] * up)
-        with np.errstate(divide="ignore"):
-            scale = np.where(down > 0, (self.height - level) / np.maximum(down, 1e-12), np.inf)
-        x = self.position[0] + scale * (t[0, 0] + t[0, 1] * left + t[0, 2] * up)
-        y = self.position[1] + scale * (t[1, 0] + t[1, 1] * left + t[1, 2] * up)
+        t = self.tilt.tolist()
+        down = -(t[2][0] + t[2][1] * left + t[2][2] * up)
+        scale = np.where(down > 0, (self.height - level) / np.maximum(down, 1e-12), np.inf)
+        x = self.position[0] + scale * (t[0][0] + t[0][1] * left + t[0][2] * up)
+        y = self.position[1] + scale * (t[1][0] + t[1][1] * left + t[1][2] * up)
         return x, y
 
     def pixels(self, x: Array, y: Array) -> tuple[Array, Array, Array]:

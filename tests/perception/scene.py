@@ -12,6 +12,7 @@ SAND = (241, 225, 211)
 SHADOWED_SAND = (208, 189, 175)
 WALL = (36, 25, 21)
 SKY = (126, 117, 113)
+BRIGHT_SKY = (168, 158, 151)  # low over the horizon, towards the sun
 YELLOW = (180, 150, 20)
 
 

@@ -40,8 +40,8 @@ def test_the_recipe_maps_nothing_when_tilted():
 def test_the_benchmark_has_times_and_scores_of_both(tmp_path, monkeypatch, capsys):
     whole_drive = recorder.record_drive
     monkeypatch.setattr(recorder, "record_drive", partial(whole_drive, frames=25))
-    monkeypatch.setattr(bench_perception, "SEEDS", (1,))
-    assert bench_perception.main(["--generated", "--json", "--out", str(tmp_path)]) == 0
+    arguments = ["--generated", "--seeds", "1", "--json", "--out", str(tmp_path)]
+    assert bench_perception.main(arguments) == 0
     result = json.loads(capsys.readouterr().out.splitlines()[0])
     assert 0 < result["core_ms_p50"] <= result["core_ms_p99"]
     assert result["reference_ms_p50"] > 0

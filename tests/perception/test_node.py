@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from rover_interfaces.msg import PolarArray, RockDetectionArray
@@ -12,6 +13,8 @@ from sensor_msgs.msg import Image, LaserScan
 
 from rover_common import conversions, frames, qos, topics
 from rover_common.geometry import Pose
+from rover_common.scoring import navigable_cells
+from rover_perception import node as perception_node
 from rover_perception.node import PerceptionNode
 
 POSE = Pose(90.0, 100.0, 0.0)
@@ -93,17 +96,78 @@ def test_the_driving_map_is_the_same_map_in_finer_cells(ros, bench):
     assert (cells[:376] != 0).all()  # beyond the wall
 
 
-def test_bad_frames_are_dropped_and_counted(ros, bench):
-    bench.send(1_000_000_000, encoding="bgr8")
-    bench.send(1_040_000_000, pose=Pose(float("nan"), 0.0, 0.0))
-    bench.send(1_080_000_000, image=np.zeros((10, 10, 3), np.uint8))
-    bench.send(1_120_000_000)
-    assert ros.spin_until(lambda: bench.got[topics.FREE_SCAN])
+def test_bad_frames_are_dropped_and_a_diagnostic_says_so(ros, bench):
+    reports = bench.listen(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
     counts = bench.node._diagnostics.counts
-    assert counts["frames"] == 1
-    assert counts["frame_image_encoding"] == 1
-    assert counts["frame_pose_not_finite"] == 1
-    assert counts["frame_image_size"] == 1
+    faults: dict[str, dict[str, Any]] = {
+        "frame_image_encoding": {"encoding": "bgr8"},
+        "frame_pose_not_finite": {"pose": Pose(float("nan"), 0.0, 0.0)},
+        "frame_image_size": {"image": np.zeros((10, 10, 3), np.uint8)},
+        "frame_pose_outside": {"pose": Pose(-3.0, 100.0, 0.0)},
+        "frames": {},
+    }
+    for index, (counter, fault) in enumerate(faults.items()):
+        bench.send(1_000_000_000 + index * 40_000_000, **fault)
+        assert ros.spin_until(lambda counter=counter: counts[counter] == 1)
+    assert len(bench.got[topics.FREE_SCAN]) <= 1
+    told = dict.fromkeys(faults, "1")
+    assert ros.spin_until(lambda: told.items() <= last_report(reports).items())
+
+
+def last_report(reports: list[DiagnosticArray]) -> dict[str, str]:
+    """The perception node's counters as they were last published."""
+    own = [
+        status
+        for report in reports
+        for status in report.status
+        if status.name.endswith("perception_node")
+    ]
+    return {pair.key: pair.value for pair in own[-1].values} if own else {}
+
+
+@pytest.mark.parametrize("level", [0, 255])
+def test_black_and_white_pictures_leave_the_map_as_it_was(ros, bench, level):
+    def wait(stamp: int) -> None:
+        scans = bench.got[topics.FREE_SCAN]
+        assert ros.spin_until(
+            lambda: scans and conversions.stamp_of(scans[-1].header.stamp) == stamp
+        )
+
+    def free() -> np.ndarray:
+        return navigable_cells(bench.node._core.world_map().cells)
+
+    stamps = iter(range(1_000_000_000, 9_000_000_000, 40_000_000))
+    for _ in range(10):
+        bench.send(stamp := next(stamps))
+        wait(stamp)
+    before = free()
+    for _ in range(3):
+        bench.send(stamp := next(stamps), image=np.full((160, 320, 3), level, np.uint8))
+        wait(stamp)
+    assert before.any()
+    assert (free() | ~before)[99:101, 92:].all()
+    gained = np.argwhere(free() & ~before)
+    # All white is ground up to the horizon: a slope, of which the nearest 4 m are taken.
+    assert (np.hypot(gained[:, 1] + 0.5 - POSE.x, gained[:, 0] + 0.5 - POSE.y) < 6.0).all()
+
+
+def test_time_that_goes_backwards_is_survived_and_a_new_run_is_told_of(ros, bench):
+    reports = bench.listen(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    scans = bench.got[topics.FREE_SCAN]
+    for count, stamp in enumerate((60_000_000_000, 59_000_000_000, 1_000_000_000), start=1):
+        bench.send(stamp)
+        assert ros.spin_until(lambda count=count: len(scans) == count)
+    told = {"frames": "3", "map_restarts": "1"}
+    assert ros.spin_until(lambda: told.items() <= last_report(reports).items())
+
+
+def test_nobody_paints_a_vision_image_that_nobody_sees(ros, bench, monkeypatch):
+    painted = []
+    monkeypatch.setattr(perception_node, "vision_image", painted.append)
+    for index in range(3):
+        bench.send(1_000_000_000 + index * 300_000_000)
+        assert ros.spin_until(lambda index=index: len(bench.got[topics.FREE_SCAN]) == index + 1)
+    assert painted == []
 
 
 def test_the_vision_image_is_made_for_subscribers(ros, bench):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scene import ground_points
 
@@ -20,8 +20,7 @@ def test_projection_and_inverse_agree(pitch, roll, x, side):
     view = View.of(ROVER_CAMERA, Pose(0, 0, 0, pitch, roll))
     y = side * x
     u, v, depth = view.pixels(np.array([x]), np.array([y]))
-    if depth[0] < 0.2 or v[0] <= view.horizon(u)[0] + 0.05:
-        return
+    assume(depth[0] > 0.2 and v[0] > view.horizon(u)[0] + 0.05)
     back_x, back_y = view.ground(u, v)
     assert back_x[0] == pytest.approx(x, rel=1e-6)
     assert back_y[0] == pytest.approx(y, rel=1e-6, abs=1e-6)
