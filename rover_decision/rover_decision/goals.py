@@ -27,6 +27,7 @@ class GoalMemory:
         self._near_since: float | None = None  # [s]
         self._stamp: int | None = None
         self.missing = 0  # plans in a row without a goal
+        self.unplaced = 0  # plans in a row that did not find the rover on the map
 
     @property
     def last(self) -> Goal | None:
@@ -37,7 +38,9 @@ class GoalMemory:
             return
         if plan.stamp != self._stamp:
             self._stamp = plan.stamp
-            self.missing = 0 if plan.goal is not None else self.missing + 1
+            self.unplaced = 0 if plan.placed else self.unplaced + 1
+            if plan.placed:
+                self.missing = 0 if plan.goal is not None else self.missing + 1
             if not _same(plan.goal, self._goal):
                 self._since, self._near_since = time, None
             self._goal = plan.goal
@@ -53,6 +56,16 @@ class GoalMemory:
         if lingered or time - self._since > OUT_OF_REACH:
             self._visited.append((goal.x, goal.y, time + FORGET))
             self._since, self._near_since = time, None
+
+    def forget_visited(self) -> bool:
+        """Take every place for unvisited again; whether there were any."""
+        forgot = len(self._visited) > 0
+        self._visited.clear()
+        return forgot
+
+    def await_plans(self) -> None:
+        """Things have changed: what the plans said until now does not count."""
+        self.missing = self.unplaced = 0
 
     def visited(self, time: float) -> NDArray[np.float64]:
         """Places (n, 2) [m] not to go to now."""

@@ -44,6 +44,7 @@ class Memory:
         self._searched = SearchedGround()
         self._searched_at = -math.inf  # [s]
         self._explored = 0.0
+        self._looked_again = False
 
     def update(self, snapshot: Snapshot, on_the_way_home: bool) -> None:
         vehicle, time = snapshot.vehicle, snapshot.time
@@ -71,6 +72,21 @@ class Memory:
         x = pose.x + ahead * math.cos(pose.yaw)
         y = pose.y + ahead * math.sin(pose.yaw)
         self.blocked = (*self.blocked, Blocked(x, y, radius, until))
+
+    def second_look(self, snapshot: Snapshot) -> bool:
+        """Before it is all over: forget what was given up, if that can bring samples or ground.
+
+        Whether there is anything to be tried once more; only once in a mission, so that it ends.
+        """
+        if self._looked_again:
+            return False
+        self._looked_again = True
+        standing = [place for place in self.blocked if not math.isfinite(place.until)]
+        unblocked = len(standing) < len(self.blocked)
+        self.blocked = tuple(standing)
+        unvisited = not self.all_collected(snapshot) and self.goals.forget_visited()
+        self.goals.await_plans()
+        return unblocked or unvisited
 
     def target(self, snapshot: Snapshot) -> Target | None:
         """The nearest rock worth going for."""

@@ -26,6 +26,7 @@ RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
 GAP_SECONDS = 1.0  # [s] between two frames: the rover drove blindly
 JUMP = 3.0  # [m] between two frames: somebody has moved it
 PLANS_WITHOUT_GOAL = 6  # in a row, while looking around: nothing is left
+PLANS_UNPLACED = 10  # in a row: turning on the spot does not bring ground to plan on
 HOME_RESERVE = 1.3  # of the time estimated for the way home
 HOME_EXTRA = 30.0  # [s]
 BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where it got stuck
@@ -156,6 +157,8 @@ class Mission:
             return Event.stopped_moving
         if memory.progress.stuck():
             return Event.stopped_moving
+        if self.state is State.FORWARD and memory.goals.unplaced >= PLANS_UNPLACED:
+            return Event.stopped_moving
         if self.state is State.FORWARD and memory.circle.circling(snapshot.time):
             return Event.circling
         return None
@@ -222,8 +225,10 @@ class Mission:
             home_seconds = HOME_RESERVE * plan.home_seconds + HOME_EXTRA
         if memory.elapsed(snapshot) + home_seconds > self._config.time_limit:
             return True
+        if follows_walls and memory.all_collected(snapshot):
+            return True
         explored = plan is not None and memory.goals.missing >= PLANS_WITHOUT_GOAL
-        return explored or (follows_walls and memory.all_collected(snapshot))
+        return explored and not memory.second_look(snapshot)
 
     def _on_entry(self, snapshot: Snapshot, terrain: Terrain, memory: Memory) -> None:
         self._entered = snapshot.time
@@ -235,6 +240,7 @@ class Mission:
                 self._side = terrain.roomier_side()
             case State.STUCK:
                 memory.recoveries += 1
+                memory.goals.await_plans()
                 self._ladder.climb(pose, terrain.roomier_side())
                 memory.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, snapshot.time + BLOCK_SECONDS)
             case State.TILT:

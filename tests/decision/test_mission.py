@@ -1,5 +1,6 @@
 """What the mission decides, frame by frame and over whole missions."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -10,6 +11,7 @@ from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
 from rover_decision.follower import follow
+from rover_decision.memory import Memory
 from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
 from rover_decision.observers import CircleMonitor, ProgressMonitor
 from rover_decision.planning.dataflow import Way
@@ -299,3 +301,25 @@ def test_the_same_mission_twice():
         return poses
 
     assert track() == track()
+
+
+def test_a_plan_that_cannot_place_the_rover_never_ends_the_exploration():
+    mission = Mission(CONFIG)
+    mission.tick(snapshot(1.0, plan=PLAN))
+    states = set()
+    for index in range(4 * PLANS_WITHOUT_GOAL):
+        unplaced = dataclasses.replace(straight_plan(stamp=1 + index, goal=False), placed=False)
+        decision = mission.tick(snapshot(1.5 + 0.1 * index, plan=unplaced))
+        states.add(decision.state)
+    assert State.RETURN_HOME not in states
+    assert State.STUCK in states  # it moves, so that the map gets ground to plan on
+
+
+def test_before_it_gives_up_on_a_sample_it_takes_a_second_look_at_what_it_skipped():
+    memory = Memory(CONFIG, snapshot())
+    memory.block(MIDDLE, 1.0, 0.5, until=90.0)
+    memory.block(MIDDLE, 1.0, 0.5, until=math.inf)
+    assert memory.second_look(snapshot())
+    assert [place.until for place in memory.blocked] == [math.inf]
+    memory.block(MIDDLE, 1.0, 0.5, until=90.0)
+    assert not memory.second_look(snapshot())  # so that a mission ends

@@ -81,3 +81,4 @@ class Plan:
     home_seconds: float  # [s] estimate for that
     frontiers: NDArray[np.float64]  # (n, 2) [m] centres, for people
     explored: float  # 0..1 estimate
+    placed: bool = True  # whether the rover stands on known ground: else the plan says nothing

@@ -62,7 +62,16 @@ class Planner:
         frontiers = [f for f in find_frontiers(costmap) if not _visited(f, request.visited)]
         start = _node_near(roadmap, (pose.x, pose.y), REACH_FROM_BODY)
         if start < 0:
-            return Plan(request.stamp, None, NO_WAY, NO_WAY, math.inf, _centers(frontiers), 0.0)
+            return Plan(
+                request.stamp,
+                None,
+                NO_WAY,
+                NO_WAY,
+                math.inf,
+                _centers(frontiers),
+                _explored(costmap, frontiers),
+                placed=False,
+            )
         roadmap.only_reachable_from(start)
         home = _node_near(roadmap, request.home, REACH_FROM_BODY)
         ways = roadmap.ways_from([start])
