@@ -41,11 +41,14 @@ class Mission:
 
     def __init__(self, config: DecisionConfig) -> None:
         self._config = config
+        self.number = 0  # counts the missions, so that one can be told from the next
         self.reset()
 
     def reset(self) -> None:
         """Forget everything: the next frame starts a new mission."""
+        self.number += 1
         self._machine = Machine()
+        self._time_limit = self._config.time_limit
         self._memory: Memory | None = None
         self._entered = 0.0  # [s] when the state was entered
         self._last: tuple[float, Pose] | None = None  # [s] of the last frame, and its pose
@@ -83,9 +86,16 @@ class Mission:
         return self._machine.handle(Event.resume)
 
     def return_home(self) -> bool:
-        """Whether the mission turns home."""
-        self._heading_home = self._machine.handle(Event.finished) or self._heading_home
-        return self.state is State.RETURN_HOME
+        """Whether the mission turns home: now, or after the pickup, manoeuvre or pause at hand."""
+        if self.state is State.DONE:
+            return False
+        self._machine.handle(Event.finished)
+        self._heading_home = True
+        return True
+
+    def limit_time(self, seconds: float) -> None:
+        """Let this mission be home within so many seconds from its first frame on."""
+        self._time_limit = seconds
 
     def plan_request(self, snapshot: Snapshot) -> MakeRequest:
         """What a plan is to be made of, asked right after the frame's tick."""
@@ -223,7 +233,7 @@ class Mission:
         home_seconds = 0.0
         if plan is not None and math.isfinite(plan.home_seconds):
             home_seconds = HOME_RESERVE * plan.home_seconds + HOME_EXTRA
-        if memory.elapsed(snapshot) + home_seconds > self._config.time_limit:
+        if memory.elapsed(snapshot) + home_seconds > self._time_limit:
             return True
         if follows_walls and memory.all_collected(snapshot):
             return True

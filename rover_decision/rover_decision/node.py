@@ -2,9 +2,9 @@
 
 Subscribes odom, rover_status, nav_polar, free_scan and rocks (joined by stamp), and driving_map.
 Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and /diagnostics.
-Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger). Parameters: see
-DecisionConfig. In simulated time a frame waits for the plan that counts from it on, so that a
-mission repeats exactly.
+Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger); action ~/run_mission
+(rover_interfaces/RunMission). Parameters: see DecisionConfig. In simulated time a frame waits for
+the plan that counts from it on, so that a mission repeats exactly.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from rover_decision.config import DecisionConfig
 from rover_decision.conversions import markers_of, mission_state_of
 from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.mission import Mission
+from rover_decision.node_action import RunMissionServer
 from rover_decision.planning.desk import PlanDesk
 from rover_decision.planning.planner import Planner
 from rover_decision.states import State
@@ -72,6 +73,7 @@ class DecisionNode(Node):
         ]
         self.create_subscription(OccupancyGrid, topics.DRIVING_MAP, self._on_map, qos.LATCHED)
         self._make_services()
+        self._action = RunMissionServer(self, self._mission)
         peers = {
             "bridge": lambda: self._command.get_subscription_count() > 0,
             "frames": lambda: all(part.get_publisher_count() > 0 for part in parts),
@@ -79,7 +81,9 @@ class DecisionNode(Node):
         self._diagnostics = NodeDiagnostics(self, peers)
 
     def destroy_node(self) -> None:
-        """End the planner's thread, then the node."""
+        """End the action's goal and the planner's thread, then the node."""
+        if hasattr(self, "_action"):
+            self._action.destroy()
         if hasattr(self, "_desk"):
             self._desk.close()
         super().destroy_node()
@@ -105,6 +109,7 @@ class DecisionNode(Node):
         self._join.clear()
         self._desk.clear()
         self._waiting.clear()
+        self._action.settle()
         return True
 
     def _on_map(self, message: OccupancyGrid) -> None:
@@ -153,7 +158,9 @@ class DecisionNode(Node):
         elif self._reported is not None and abs(stamp - self._reported[0]) < REPORT_PERIOD:
             return
         self._reported = (stamp, decision.state)
-        self._state.publish(mission_state_of(stamp, decision))
+        report = mission_state_of(stamp, decision)
+        self._state.publish(report)
+        self._action.on_report(report)
         if self._markers.get_subscription_count() > 0:
             self._markers.publish(markers_of(stamp, snapshot, self._mission.memory))
 

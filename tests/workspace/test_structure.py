@@ -27,9 +27,9 @@ CONFIGS = {
     "decision_node": DecisionConfig,
 }
 MESSAGE_PACKAGES = {
-    "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces",
-    "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs", "std_srvs", "tf2_msgs",
-    "visualization_msgs",
+    "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav_msgs",
+    "rcl_interfaces", "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs", "std_srvs",
+    "tf2_msgs", "visualization_msgs",
 }  # fmt: skip
 # The rosdep key of each library that is imported under another name.
 ROSDEP_KEYS = {

@@ -1,0 +1,115 @@
+"""The action ~/run_mission of the decision node: a mission as a goal, with feedback."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.action.server import ServerGoalHandle
+from rclpy.node import Node
+from rover_interfaces.action import RunMission
+from rover_interfaces.msg import MissionState
+
+from rover_decision.mission import Mission
+from rover_decision.run import REASONS, Outcome, Run, refusal
+from rover_decision.states import State
+
+
+class DeferringActionServer(ActionServer):
+    """Asks for a goal's result when it is there, instead of executing the goal from its beginning.
+
+    An execute callback that waits for the end would hold up the frames, and a coroutine that awaits
+    it is polled by EventsExecutor without a pause, which takes a whole core.
+    """
+
+    def __init__(self, node: Node, action_type: Any, name: str, **callbacks: Any) -> None:
+        def execute(_: ServerGoalHandle) -> Any:
+            return action_type.Result()  # wanted by the base class, never called
+
+        super().__init__(node, action_type, name, execute, **callbacks)
+
+    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Any) -> None:
+        """Called by the goal's handle when it has become EXECUTING: nothing to do yet."""
+
+    def answer(self, goal_handle: ServerGoalHandle, result: Any) -> None:
+        """Send the result of a goal that has been brought to its last state."""
+        super().notify_execute(goal_handle, lambda _: result)
+
+
+class RunMissionServer:
+    """Takes one goal at a time and ends it from the mission's reports."""
+
+    def __init__(self, node: Node, mission: Mission) -> None:
+        self._node = node
+        self._mission = mission
+        self._run: Run | None = None
+        self._handle: ServerGoalHandle | None = None  # of the goal that the run is for
+        self._report = MissionState()  # the last one
+        self._server = DeferringActionServer(
+            node,
+            RunMission,
+            "~/run_mission",
+            goal_callback=self._on_goal,
+            handle_accepted_callback=self._on_accepted,
+            cancel_callback=self._on_cancel,
+        )
+
+    def on_report(self, report: MissionState) -> None:
+        """Pass a report of the mission on, or end the goal with it."""
+        if self._run is not None and self._run.outcome() is Outcome.RESTARTED:
+            self.settle()  # with what was last reported of the mission before
+        self._report = report
+        self.settle()
+        if self._handle is not None:
+            self._handle.publish_feedback(RunMission.Feedback(mission=report))
+
+    def settle(self) -> None:
+        """End the goal if its run has ended."""
+        outcome = self._run.outcome() if self._run is not None else None
+        handle = self._handle
+        if outcome is None or handle is None:
+            return
+        match outcome:
+            case Outcome.HOME:
+                handle.succeed()
+            case Outcome.CANCELED:
+                handle.canceled()
+            case Outcome.RESTARTED:
+                handle.abort()
+        self._run, self._handle = None, None
+        self._node.get_logger().info(f"run_mission: {REASONS[outcome]}")
+        result = RunMission.Result(
+            outcome=int(outcome), reason=REASONS[outcome], mission=self._report
+        )
+        self._server.answer(handle, result)
+
+    def destroy(self) -> None:
+        """Abort the goal, and end the server."""
+        if self._handle is not None and self._node.context.ok():
+            self._handle.abort()
+        self._run, self._handle = None, None
+        self._server.destroy()
+
+    def _on_goal(self, goal: RunMission.Goal) -> GoalResponse:
+        why_not = refusal(goal.time_limit, self._run)
+        if why_not:
+            self._node.get_logger().warning(f"run_mission: rejected: {why_not}")
+            return GoalResponse.REJECT
+        return GoalResponse.ACCEPT
+
+    def _on_accepted(self, handle: ServerGoalHandle) -> None:
+        self._handle = handle
+        self._run = Run(self._mission, handle.request.time_limit)
+        if self._mission.state is State.IDLE:
+            self._report = MissionState(state_name=State.IDLE.name)
+        self._node.get_logger().info(f"run_mission: accepted: {self._mission.state.name}")
+        handle.execute()
+
+    def _on_cancel(self, _: ServerGoalHandle) -> CancelResponse:
+        if self._run is not None:
+            self._run.cancel()
+            self._node.get_logger().info(f"run_mission: canceled: {self._mission.state.name}")
+        # The goal counts as canceling from the answer on; where no frames come it must end as well.
+        if self._node.executor is not None:
+            self._node.executor.create_task(self.settle)
+        return CancelResponse.ACCEPT
