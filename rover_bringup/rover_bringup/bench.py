@@ -9,6 +9,7 @@ BENCHMARKS = {
     "graph": ("rover_bringup.bench_graph", "telemetry to command through the three nodes"),
     "simulator": ("rover_bringup.bench_simulator", "the embedded simulator against recordings"),
     "perception": ("rover_bringup.bench_perception", "time per frame and map scores"),
+    "decision": ("rover_bringup.bench_decision", "time per frame and per plan, whole missions"),
     "tours": ("rover_bringup.bench_tours", "maps of whole missions, driven steadily and roughly"),
 }
 

@@ -12,7 +12,7 @@ COMMANDS = {
     "scoreboard": ("rover_bringup.scoreboard.main", "many missions without ROS, and their table"),
     "sim": ("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "replay": ("rover_bringup.replay", "play a recorded run through the graph and score the map"),
-    "bench": ("rover_bringup.bench", "benchmarks: graph, perception, simulator, tours"),
+    "bench": ("rover_bringup.bench", "benchmarks: graph, perception, decision, simulator, tours"),
 }
 
 

@@ -45,12 +45,16 @@ class Loop:
         simulation: Simulation,
         decision: DecisionConfig | None = None,
         perception: PerceptionConfig | None = None,
+        *,
+        mission: Mission | None = None,
+        planner: Planner | None = None,
     ) -> None:
+        """`mission` and `planner` take the place of those that `decision` describes."""
         config = decision or DecisionConfig()
         self.simulation = simulation
         self.perception = Perception(perception or PerceptionConfig())
-        self.mission = Mission(config)
-        planner = Planner(config.explorer)
+        self.mission = mission or Mission(config)
+        planner = planner or Planner(config.explorer)
         self._desk = PlanDesk(planner.plan, config.plan_delay, lockstep=True)
         self._stamp = -1
         self._rocks: tuple[Rock, ...] = ()
@@ -58,7 +62,9 @@ class Loop:
     def close(self) -> None:
         self._desk.close()
 
-    def run(self, time_limit: float, watch: Callable[[Decision], None] | None = None) -> LoopResult:
+    def run(
+        self, time_limit: float, watch: Callable[[Decision], object] | None = None
+    ) -> LoopResult:
         """Until the mission is over or the simulated time [s] is up."""
         # The simulator sends two telemetries when it connects, and moves on when both are answered.
         answers = [self.exchange(), self.exchange()]
