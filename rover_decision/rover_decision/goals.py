@@ -11,7 +11,7 @@ from rover_common.geometry import Pose
 from rover_decision.planning.dataflow import Goal, GoalKind, Plan
 
 AT_GOAL = 1.2  # [m]
-LINGER = 3.0  # [s] at a goal, after which what there was to see has been seen
+LINGER = 1.5  # [s] at a goal, after which what there was to see has been seen
 OUT_OF_REACH = 60.0  # [s] on the way to one goal
 FORGET = 150.0  # [s] after which a goal may be tried again
 SAME = 4.0  # [m] between two plans' goals

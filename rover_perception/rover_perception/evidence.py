@@ -55,7 +55,7 @@ class EvidenceGrid:
         cell, x, y = cell[seen], x[seen], y[seen]
         column, v = u[seen].astype(np.intp), v[seen]
         below = v - columns.horizon.astype(np.float32)[column]
-        margin = v - columns.reach.astype(np.float32)[column]
+        margin = v - columns.reach.astype(np.float32)[column]  # [px] below the edge
         spread = np.float32(view.height_error + FLOOR_ERROR / view.height)
         error = np.sqrt(EDGE_ERROR**2 + np.square(below * spread))
         is_free = margin > 0
@@ -63,7 +63,7 @@ class EvidenceGrid:
         x, y = x[free], y[free]
         self._add_free(cell[free], margin[free] / error[free], x * x + y * y)
         foot = np.flatnonzero(~is_free & columns.blocked[column])
-        self._add_blocked(view, cell[foot], (below - margin)[foot], below[foot], error[foot])
+        self._add_blocked(view, cell[foot], margin[foot], below[foot], error[foot])
         return x, y
 
     def _add_free(self, cell: NDArray, margin: NDArray, squared_distance: NDArray) -> None:
@@ -73,9 +73,12 @@ class EvidenceGrid:
         _add_at(self.free_looks, cell, sure)
 
     def _add_blocked(
-        self, view: View, cell: NDArray, foot: NDArray, below: NDArray, error: NDArray
+        self, view: View, cell: NDArray, margin: NDArray, below: NDArray, error: NDArray
     ) -> None:
-        """Cells behind an obstacle; `foot` and `below` are its and their rows under the horizon."""
+        """Cells behind an obstacle, by their rows [px] above its foot (negative) and under the
+        horizon, and the first one's standard deviation.
+        """
+        foot = below - margin
         scale = np.float32(view.height * view.camera.focal)  # [m px] range times rows below horizon
         distance = scale / np.maximum(foot, np.float32(0.5))
         behind = scale / np.maximum(below, np.float32(0.1)) - distance
@@ -87,7 +90,11 @@ class EvidenceGrid:
         guess = np.minimum(1.0, np.square(FOOT_DEPTH / behind))
         _add_at(self.blocked, cell, sure * guess * _weight(squared_distance))
         near = np.flatnonzero(behind < FOOT_DEPTH)
-        _add_at(self.foot_looks, cell[near], sure[near])
+        # Just behind the foot, that it is an obstacle is no surer than that just before it is none:
+        # else the many far looks at an edge would take it for explored.
+        beyond = body[near]
+        sure_beyond = 1.0 - np.exp(-0.5 * np.square(margin[beyond] / error[beyond]))
+        _add_at(self.foot_looks, cell[near], sure[near] * sure_beyond)
 
     def _cells_around(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray]:
         """Flat indices of the cells that may be in the fan, and their level-frame points [m]."""

@@ -82,6 +82,11 @@ def test_a_door_into_the_unknown_is_the_goal():
     assert made.explored < 1.0
 
 
+def test_a_border_too_short_for_a_way_on_is_no_goal():
+    assert plan(opened(HALL, 40, 19.25, 41, 20.75)).goal is None
+    assert plan(opened(HALL, 40, 18.5, 41, 21.5)).goal is not None
+
+
 def test_places_visited_in_vain_are_no_goals():
     made = plan(OPEN_EAST, visited=np.array([[39.9, y] for y in np.arange(16, 25)]))
     assert made.goal is None

@@ -137,6 +137,21 @@ def test_what_lies_behind_an_obstacle_is_unknown():
     assert (cells[98:102, 99:] == -1).all()
 
 
+def test_a_few_looks_at_a_wall_from_afar_leave_its_foot_to_be_explored():
+    """A row of pixels is half a cell long there: they cannot tell on which side of it a cell is."""
+
+    def at_the_end(x: float) -> np.ndarray:
+        core = Perception(LIVE)
+        for frame in frames([Pose(x, 100, 0)] * 10, hall):
+            core.process(frame)
+        return core.driving_map().cells[396:404, 396:404]  # [m] 99 to 101
+
+    assert (at_the_end(94.0) < 50).all()
+    near = at_the_end(97.0)
+    assert (near[:, 5] >= 50).all()
+    assert (near[:, :3] < 50).all()
+
+
 def test_evidence_can_be_taken_back():
     core = Perception(LIVE)
     for index in range(5):

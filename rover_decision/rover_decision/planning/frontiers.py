@@ -11,7 +11,8 @@ from scipy import ndimage
 
 from rover_decision.planning.costmap import Costmap
 
-SMALLEST = 4  # [cells] a shorter border is a seam between two looks, not a way on
+# [cells] 2.5 m: no way on is as narrow, and what a shorter border hides is not worth the way there
+SMALLEST = 10
 SQUARE = np.ones((3, 3), np.uint8)
 
 
