@@ -24,6 +24,25 @@ LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
 SLOWEST = 0.3  # [m/s]
 
 
+def wanted_bearing(snapshot: Snapshot, config: DecisionConfig) -> float:
+    """Where the plan leads [rad], or what to look at; straight ahead for who follows walls."""
+    plan, pose = snapshot.plan, snapshot.vehicle.pose
+    if config.explorer in WALL_FOLLOWERS or plan is None or len(plan.way) == 0:
+        return 0.0
+    if plan.goal is not None and looks_at_goal(snapshot, config):
+        return bearing_to(pose, plan.goal.x, plan.goal.y)
+    return bearing_of(pose, plan.way)
+
+
+def looks_at_goal(snapshot: Snapshot, config: DecisionConfig) -> bool:
+    """Whether the rover is where its goal is looked at from; it turns there on the spot."""
+    plan, pose = snapshot.plan, snapshot.vehicle.pose
+    if config.explorer in WALL_FOLLOWERS or plan is None or plan.goal is None:
+        return False
+    at_hand = plan.goal.kind is not GoalKind.ROCK and len(plan.way) > 0
+    return at_hand and at_end(pose, plan.way)
+
+
 def explore(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Action:
     """Drive along the plan, or along the walls."""
     if config.explorer in WALL_FOLLOWERS:
@@ -33,8 +52,8 @@ def explore(snapshot: Snapshot, terrain: Terrain, config: DecisionConfig) -> Act
         return motion.stop(), "waits for the first plan"
     if plan.goal is None or len(plan.way) == 0:
         return motion.turn_in_place(vehicle.speed, LOOK_AROUND), "looks around for a goal"
-    if plan.goal.kind is not GoalKind.ROCK and at_end(vehicle.pose, plan.way):
-        bearing = bearing_to(vehicle.pose, plan.goal.x, plan.goal.y)
+    if looks_at_goal(snapshot, config):
+        bearing = wanted_bearing(snapshot, config)
         return motion.turn_in_place(vehicle.speed, bearing), f"looks at {plan.goal.kind.value}"
     command = follow(vehicle.pose, vehicle.speed, plan.way, terrain, config.top_speed)
     return command, f"drives to {plan.goal.kind.value}"
@@ -68,7 +87,7 @@ def look_for_a_way(
     if config.explorer not in WALL_FOLLOWERS and snapshot.plan is not None:
         if len(snapshot.plan.way) == 0:
             return motion.turn_in_place(vehicle.speed, LOOK_AROUND), "turns to find a way"
-        bearing = bearing_of(vehicle.pose, snapshot.plan.way)
+        bearing = wanted_bearing(snapshot, config)
         return motion.turn_in_place(vehicle.speed, bearing), "turns to the new way"
     way = terrain.way(config.go_clearance)
     bearing = side * LOOK_AROUND if way is None else way

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
@@ -17,7 +16,6 @@ BESIDE = 1.0  # [m] crumbs this near to each other are linked in any case
 ACROSS = 6.0  # [m] and up to here where the map shows free ground between them
 ROOM = 0.6  # [m] from obstacles, of a link across
 SAMPLES = 13  # points on which a link across is tried: one for each half metre
-SMOOTHING = 2.0  # [crumbs]
 
 
 class Crumbs:
@@ -81,11 +79,8 @@ def _clear(
 
 
 def _dense(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The way with a point for each half metre, its corners rounded off."""
+    """The way with a point for each half metre."""
     steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
     at = np.concatenate([[0.0], np.cumsum(steps)])
     fine = np.linspace(0.0, at[-1], max(2, round(at[-1] / SPACING) + 1))
-    points = np.stack([np.interp(fine, at, way[:, axis]) for axis in (0, 1)], axis=1)
-    smooth = ndimage.gaussian_filter1d(points, SMOOTHING, axis=0, mode="nearest")
-    smooth[-1] = points[-1]
-    return np.asarray(smooth)
+    return np.stack([np.interp(fine, at, way[:, axis]) for axis in (0, 1)], axis=1)

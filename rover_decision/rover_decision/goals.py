@@ -15,13 +15,16 @@ LINGER = 1.5  # [s] at a goal, after which what there was to see has been seen
 OUT_OF_REACH = 60.0  # [s] on the way to one goal
 FORGET = 150.0  # [s] after which a goal may be tried again
 SAME = 4.0  # [m] between two plans' goals
+# What a look in vain has settled: a disc around what was looked at, the wider the farther off.
+LEAST_RADIUS = 1.5  # [m]
+RADIUS_PER_DISTANCE = 0.4
 
 
 class GoalMemory:
     """Watches the goals of the plans."""
 
     def __init__(self) -> None:
-        self._visited: list[tuple[float, float, float]] = []  # x, y [m], until [s]
+        self._visited: list[tuple[float, float, float, float]] = []  # x, y, radius [m], until [s]
         self._goal: Goal | None = None
         self._since = 0.0  # [s] when the goal was set
         self._near_since: float | None = None  # [s]
@@ -54,7 +57,9 @@ class GoalMemory:
             self._near_since = time
         lingered = self._near_since is not None and time - self._near_since > LINGER
         if lingered or time - self._since > OUT_OF_REACH:
-            self._visited.append((goal.x, goal.y, time + FORGET))
+            distance = math.hypot(goal.x - pose.x, goal.y - pose.y) if lingered else 0.0
+            radius = max(LEAST_RADIUS, RADIUS_PER_DISTANCE * distance)
+            self._visited.append((goal.x, goal.y, radius, time + FORGET))
             self._since, self._near_since = time, None
 
     def forget_visited(self) -> bool:
@@ -68,9 +73,9 @@ class GoalMemory:
         self.missing = self.unplaced = 0
 
     def visited(self, time: float) -> NDArray[np.float64]:
-        """Places (n, 2) [m] not to go to now."""
-        self._visited = [entry for entry in self._visited if entry[2] > time]
-        return np.array([entry[:2] for entry in self._visited], float).reshape(-1, 2)
+        """Places not to go to now (n, 3): x, y and radius [m]."""
+        self._visited = [entry for entry in self._visited if entry[3] > time]
+        return np.array([entry[:3] for entry in self._visited], float).reshape(-1, 3)
 
 
 def _same(a: Goal | None, b: Goal | None) -> bool:

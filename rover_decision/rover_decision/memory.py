@@ -19,6 +19,7 @@ from rover_decision.planning.desk import MakeRequest
 from rover_decision.recovery import SafePoses
 from rover_decision.rocks import RockMemory, Target
 
+ON_ONE_SPOT = 25.0  # [s] of turning and looking; no more than two full turns are of use
 SEARCH_PERIOD = 0.2  # [s] between two looks at what was searched
 
 
@@ -33,6 +34,7 @@ class Memory:
         self.samples_total = snapshot.vehicle.sample_count
         self._sample_count = self.samples_total
         self.progress = ProgressMonitor(config.stuck_seconds)
+        self.travel = ProgressMonitor(ON_ONE_SPOT, turns_count=False)
         self.circle = CircleMonitor()
         self.odometer = Odometer()
         self.rocks = RockMemory(config.retry_after)
@@ -50,6 +52,7 @@ class Memory:
         vehicle, time = snapshot.vehicle, snapshot.time
         self.odometer.update(vehicle.pose)
         self.progress.update(time, vehicle.pose)
+        self.travel.update(time, vehicle.pose)
         self.safe_poses.update(vehicle.pose)
         if not on_the_way_home:
             self.crumbs.drop(vehicle.pose)

@@ -7,10 +7,10 @@ import math
 from rover_common.dataflow import SAFE_COMMAND, Command
 from rover_common.geometry import Pose
 from rover_decision import behaviours, recovery
+from rover_decision.behaviours import looks_at_goal, wanted_bearing
 from rover_decision.config import DecisionConfig
 from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.explore import WALL_FOLLOWERS
-from rover_decision.follower import bearing_of
 from rover_decision.home import BREADCRUMBS, WayHome, bearing_home
 from rover_decision.memory import Memory
 from rover_decision.planning.desk import MakeRequest
@@ -34,6 +34,7 @@ TILT_AHEAD, TILT_RADIUS = 0.6, 0.5  # [m] where it tilted, for good
 MOVING_STATES = (
     State.FORWARD, State.STOP, State.CIRCLE, State.ROCK_APPROACH, State.RETURN_HOME,
 )  # fmt: skip
+EXPLORING_STATES = {State.FORWARD, State.STOP, State.CIRCLE}
 
 
 class Mission:
@@ -50,6 +51,7 @@ class Mission:
         self._machine = Machine()
         self._time_limit = self._config.time_limit
         self._memory: Memory | None = None
+        self._noticed = self._machine.state
         self._entered = 0.0  # [s] when the state was entered
         self._last: tuple[float, Pose] | None = None  # [s] of the last frame, and its pose
         self._pickup_seen = False
@@ -110,11 +112,13 @@ class Mission:
             self._memory = Memory(self._config, snapshot)
         self._memory.update(snapshot, self.state in (State.RETURN_HOME, State.DONE))
         terrain = Terrain.of(snapshot.scan, self._config.corridor)
+        self._notice_entry(snapshot, terrain, self._memory)  # a person's request came between
         target = self._memory.target(snapshot)
         event = self._what_happened(snapshot, terrain, target, self._memory)
         self._last = (snapshot.time, snapshot.vehicle.pose)
-        if event is not None and self._machine.handle(event):
-            self._on_entry(snapshot, terrain, self._memory)
+        if event is not None:
+            self._machine.handle(event)
+        self._notice_entry(snapshot, terrain, self._memory)
         command, reason = self._act(snapshot, terrain, target, self._memory)
         driving = self.state is State.FORWARD and abs(snapshot.vehicle.speed) > 0.3
         self._memory.circle.update(snapshot.time, command.steering_angle, driving)
@@ -165,7 +169,7 @@ class Mission:
                 return Event.lost
         if self.state is State.STOP and since > STOP_SECONDS:
             return Event.stopped_moving
-        if memory.progress.stuck():
+        if memory.progress.stuck() or memory.travel.stuck():
             return Event.stopped_moving
         if self.state is State.FORWARD and memory.goals.unplaced >= PLANS_UNPLACED:
             return Event.stopped_moving
@@ -202,18 +206,11 @@ class Mission:
         if self.state is State.CIRCLE and since > CIRCLE_SECONDS:
             return Event.recovered
         if self.state in (State.FORWARD, State.CIRCLE):
-            wanted = self._wanted_bearing(snapshot)
-            turning = abs(wanted) > math.radians(40.0)
+            wanted = wanted_bearing(snapshot, self._config)
+            turning = abs(wanted) > math.radians(40.0) or looks_at_goal(snapshot, self._config)
             blocked = terrain.clearance(wanted / 2) < self._config.stop_clearance
             return Event.blocked if blocked and not turning else None
         return Event.cleared if self._cleared(snapshot, terrain, since) else None
-
-    def _wanted_bearing(self, snapshot: Snapshot) -> float:
-        """Where the explorer drives [rad]; straight ahead for those that follow walls."""
-        plan = snapshot.plan
-        if self._config.explorer in WALL_FOLLOWERS or plan is None or len(plan.way) == 0:
-            return 0.0
-        return bearing_of(snapshot.vehicle.pose, plan.way)
 
     def _cleared(self, snapshot: Snapshot, terrain: Terrain, since: float) -> bool:
         if self.state is not State.STOP:
@@ -223,7 +220,7 @@ class Mission:
             return way is not None and abs(way) < WAY_AHEAD
         if snapshot.plan.goal is None:
             return since > 1.0  # FORWARD looks around
-        wanted = self._wanted_bearing(snapshot)
+        wanted = wanted_bearing(snapshot, self._config)
         return since > 0.5 and abs(wanted) < WAY_AHEAD and (
             terrain.clearance(wanted) > 1.2 * self._config.stop_clearance
         )  # fmt: skip
@@ -240,10 +237,16 @@ class Mission:
         explored = plan is not None and memory.goals.missing >= PLANS_WITHOUT_GOAL
         return explored and not memory.second_look(snapshot)
 
-    def _on_entry(self, snapshot: Snapshot, terrain: Terrain, memory: Memory) -> None:
+    def _notice_entry(self, snapshot: Snapshot, terrain: Terrain, memory: Memory) -> None:
+        """Do what a new state begins with."""
+        before, self._noticed = self._noticed, self.state
+        if before is self.state:
+            return
         self._entered = snapshot.time
         self._pickup_seen = False
         memory.progress.restart()
+        if {before, self.state} - EXPLORING_STATES:  # between those it may go to and fro for ever
+            memory.travel.restart()
         pose = snapshot.vehicle.pose
         match self.state:
             case State.STOP:

@@ -13,7 +13,7 @@ from rover_common.grid import GridGeometry
 from rover_decision.planning.dataflow import Searched
 
 PROGRESS_DISTANCE = 0.5  # [m]
-PROGRESS_TURN = math.radians(30.0)  # turning on the spot is progress too
+PROGRESS_TURN = math.radians(30.0)
 CIRCLE_STEERING = math.radians(8.0)  # [rad] to one side all the time
 CIRCLE_SECONDS = 10.0  # [s]
 SEARCH_RANGE = 6.0  # [m] a rock beyond is rarely seen
@@ -25,8 +25,10 @@ SEARCH_SLACK = 0.7  # [m] of a cell that may lie beyond the end of the free grou
 class ProgressMonitor:
     """Whether the pose has changed within a span of time."""
 
-    def __init__(self, seconds: float) -> None:
+    def __init__(self, seconds: float, turns_count: bool = True) -> None:
+        """turns_count: whether to turn on the spot is progress too."""
         self._seconds = seconds
+        self._turn = PROGRESS_TURN if turns_count else math.inf
         self._trail: deque[tuple[float, Pose]] = deque()
 
     def update(self, time: float, pose: Pose) -> None:
@@ -38,7 +40,7 @@ class ProgressMonitor:
         """Whether the whole span has passed without progress."""
         (start, _), (end, last) = self._trail[0], self._trail[-1]
         return end - start >= self._seconds and not any(
-            _moved(pose, last) for _, pose in self._trail
+            _moved(pose, last, self._turn) for _, pose in self._trail
         )
 
     def restart(self) -> None:
@@ -106,6 +108,6 @@ class SearchedGround:
         return Searched(self._geometry, self._distance.copy())
 
 
-def _moved(a: Pose, b: Pose) -> bool:
+def _moved(a: Pose, b: Pose, least_turn: float) -> bool:
     turn = abs(wrap_angle(a.yaw - b.yaw))
-    return math.hypot(a.x - b.x, a.y - b.y) > PROGRESS_DISTANCE or turn > PROGRESS_TURN
+    return math.hypot(a.x - b.x, a.y - b.y) > PROGRESS_DISTANCE or turn > least_turn

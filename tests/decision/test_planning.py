@@ -55,7 +55,7 @@ OPEN_EAST = opened(HALL, 40, 16, 41, 24)  # a door in the east wall
 def request(map_: GridMap, **changes) -> PlanRequest:
     fields = {
         "stamp": 7, "grid": map_, "pose": HERE, "home": (12.0, 20.0), "trail": NOWHERE,
-        "rocks": (), "blocked": (), "visited": NOWHERE, "searched": None, "search": False,
+        "rocks": (), "blocked": (), "visited": np.empty((0, 3)), "searched": None, "search": False,
         "last_goal": None,
     }  # fmt: skip
     return PlanRequest(**(fields | changes))
@@ -88,7 +88,7 @@ def test_a_border_too_short_for_a_way_on_is_no_goal():
 
 
 def test_places_visited_in_vain_are_no_goals():
-    made = plan(OPEN_EAST, visited=np.array([[39.9, y] for y in np.arange(16, 25)]))
+    made = plan(OPEN_EAST, visited=np.array([[39.9, y, 1.5] for y in np.arange(16, 25)]))
     assert made.goal is None
 
 

@@ -63,7 +63,7 @@ class PlanRequest:
     trail: NDArray[np.float64]  # (n, 2) [m] where the rover has been
     rocks: tuple[Rock, ...]  # worth going for now
     blocked: tuple[Blocked, ...]
-    visited: NDArray[np.float64]  # (n, 2) [m] goals that were reached and are still there
+    visited: NDArray[np.float64]  # (n, 3) [m] x, y, radius of what was looked at in vain
     searched: Searched | None
     search: bool  # whether samples are left: rocks that nobody has seen, when none is in reach
     last_goal: Goal | None

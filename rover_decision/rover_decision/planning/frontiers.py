@@ -29,11 +29,13 @@ class Frontier:
         return len(self.x)
 
 
-def find_frontiers(costmap: Costmap) -> list[Frontier]:
-    """All borders of some length, the longest first."""
+def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Frontier]:
+    """All borders of some length, the longest first; `visited` (n, 3) [m] as for near_visited."""
     # Unknown slivers of less than three cells vanish: they are grazed walls.
     unknown = cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE)
     border = costmap.free & (cv2.dilate(unknown, SQUARE) > 0)
+    rows, cols = np.nonzero(border)
+    border[rows, cols] = ~near_visited(*costmap.geometry.center_of(rows, cols), visited)
     labels, count = ndimage.label(border, structure=SQUARE)
     if count == 0:
         return []
@@ -46,3 +48,11 @@ def find_frontiers(costmap: Costmap) -> list[Frontier]:
     ]
     large = [frontier for frontier in frontiers if frontier.length >= SMALLEST]
     return sorted(large, key=lambda frontier: -frontier.length)
+
+
+def near_visited(
+    x: NDArray[np.float64], y: NDArray[np.float64], visited: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Whether points (m,) [m] lie in the discs (n, 3) of places visited: x, y, radius [m]."""
+    away = np.hypot(x - visited[:, :1], y - visited[:, 1:2])
+    return np.asarray((away < visited[:, 2:]).any(axis=0))

@@ -19,22 +19,20 @@ from rover_decision.planning.dataflow import (
     GoalKind,
     Plan,
     PlanRequest,
-    Way,
 )
-from rover_decision.planning.frontiers import Frontier, find_frontiers
+from rover_decision.planning.frontiers import Frontier, find_frontiers, near_visited
 from rover_decision.planning.roadmap import Roadmap, Ways
 from rover_decision.planning.tour import MOST_STOPS, tour_costs
+from rover_decision.planning.ways import drivable_way
 
 REACH_FROM_BODY = 3.0  # [m] to the nearest drivable cell, from where the rover or its home is
 REACH_OF_FRONTIER = 10.0  # [m] from the place to look at it from
 REACH_OF_ROCK = 2.5  # [m] from the end of the way, where the approach by sight takes over
-VISITED_RADIUS = 1.5  # [m] a frontier this near to a place given up is that one
+VISITED_RADIUS = 1.5  # [m] ground this near to a place given up is that one
 SAME_GOAL = 4.0  # [m] a goal this near to the last one is the same, seen anew
 LOYALTY = 4.0  # [s] that another goal must save before the rover turns to it
 TURN_SECONDS = 2.0  # [s] to stop for a turn on the spot, and to gather speed again
 SHARP = math.radians(60.0)  # a turn that is made on the spot
-SPEED_PER_CLEARANCE = 1.6  # [1/s] of a way's speed limit
-SLOWEST = 0.8  # [m/s] limit in the narrowest place
 # [m] A rock in the open shows from the first on in every look, one half buried or behind the swell
 # of a wall's foot from the second on.
 SEARCH_DISTANCES = (5.0, 3.0)
@@ -59,7 +57,7 @@ class Planner:
         pose = request.pose
         costmap = Costmap.of(request.grid, request.trail, (pose.x, pose.y), request.blocked)
         roadmap = Roadmap(costmap)
-        frontiers = [f for f in find_frontiers(costmap) if not _visited(f, request.visited)]
+        frontiers = find_frontiers(costmap, request.visited)
         start = _node_near(roadmap, (pose.x, pose.y), REACH_FROM_BODY)
         if start < 0:
             return Plan(
@@ -79,13 +77,14 @@ class Planner:
         goal_way, goal = NO_WAY, None
         if stops:
             best = self._choose(request, roadmap, ways, stops, home)
-            goal, goal_way = best.goal, _limited(roadmap.way(ways, 0, best.node), costmap)
+            goal, goal_way = best.goal, drivable_way(roadmap.way(ways, 0, best.node), costmap)
         home_way, home_seconds = NO_WAY, math.inf
         if home >= 0 and np.isfinite(ways.seconds[0, home]):
-            home_way = _limited(roadmap.way(ways, 0, home), costmap)
+            home_way = drivable_way(roadmap.way(ways, 0, home), costmap)
             home_seconds = float(ways.seconds[0, home])
         if request.home_by_crumbs:
-            home_way = _limited(way_over_crumbs(request.trail, (pose.x, pose.y), costmap), costmap)
+            crumbs = way_over_crumbs(request.trail, (pose.x, pose.y), costmap)
+            home_way = drivable_way(crumbs, costmap)
         explored = _explored(costmap, frontiers)
         return Plan(
             request.stamp, goal, goal_way, home_way, home_seconds, _centers(frontiers), explored
@@ -142,8 +141,7 @@ def _unsearched(
     row, col = request.searched.geometry.cell_of(roadmap.x, roadmap.y)
     nearest_look = request.searched.distance[row, col]
     at_hand = np.isfinite(seconds)
-    for x, y in request.visited:
-        at_hand &= np.hypot(roadmap.x - x, roadmap.y - y) > VISITED_RADIUS
+    at_hand &= ~near_visited(roadmap.x, roadmap.y, request.visited)
     for distance in SEARCH_DISTANCES:
         left = at_hand & (nearest_look > distance)
         if left.any():
@@ -152,14 +150,6 @@ def _unsearched(
                 _Stop(Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node])), node)
             ]
     return []
-
-
-def _visited(frontier: Frontier, visited: NDArray[np.float64]) -> bool:
-    """Whether most of its cells are near places already visited in vain."""
-    if len(visited) == 0:
-        return False
-    away = np.hypot(frontier.x[:, None] - visited[:, 0], frontier.y[:, None] - visited[:, 1])
-    return bool(np.mean(away.min(axis=1) < VISITED_RADIUS) > 0.5)
 
 
 def _turn_seconds(pose: Pose, way: NDArray[np.float64]) -> float:
@@ -175,13 +165,6 @@ def _same(goal: Goal, last: Goal | None) -> bool:
     if last is None or goal.kind is not last.kind:
         return False
     return math.hypot(goal.x - last.x, goal.y - last.y) < SAME_GOAL
-
-
-def _limited(points: NDArray[np.float64], costmap: Costmap) -> Way:
-    """A way with the speed that its clearance allows."""
-    row, col = costmap.geometry.cell_of(points[:, 0], points[:, 1])
-    clearance = costmap.clearance[row, col].astype(np.float64)
-    return Way(points, np.maximum(SLOWEST, SPEED_PER_CLEARANCE * clearance))
 
 
 def _centers(frontiers: Sequence[Frontier]) -> NDArray[np.float64]:

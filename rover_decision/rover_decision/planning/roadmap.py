@@ -18,7 +18,6 @@ PADDING = 0.55  # [m] from obstacles: half the rover's width, and what a wheel m
 # Speed that a cell can be driven with: by its clearance, between crawling and cruising.
 SPEED_PER_CLEARANCE = 1.5  # [1/s]
 SLOWEST, FASTEST = 0.5, 2.5  # [m/s]
-SMOOTHING = 2.0  # [cells] standard deviation of the filter over a way's points
 
 
 @dataclass(frozen=True)
@@ -81,14 +80,11 @@ class Roadmap:
         return Ways(seconds, previous)
 
     def way(self, ways: Ways, source: int, target: int) -> NDArray[np.float64]:
-        """Points (n, 2) [m] from source number `source` of the ways to a node, smoothed."""
+        """Points (n, 2) [m] from source number `source` of the ways to a node, cell by cell."""
         nodes = [target]
         while (before := int(ways.previous[source, nodes[-1]])) >= 0:
             nodes.append(before)
-        points = np.stack([self.x[nodes[::-1]], self.y[nodes[::-1]]], axis=1)
-        smooth = ndimage.gaussian_filter1d(points, SMOOTHING, axis=0, mode="nearest")
-        smooth[-1] = points[-1]
-        return np.asarray(smooth)
+        return np.stack([self.x[nodes[::-1]], self.y[nodes[::-1]]], axis=1)
 
     def _links(self, pace: NDArray[np.float64]) -> csr_array:
         """Symmetric: seconds from each node to its eight neighbours."""
