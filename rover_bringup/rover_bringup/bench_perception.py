@@ -132,7 +132,7 @@ def _run_course(
     truth = course.truth.navigable
     if percept is None or truth is None:
         raise ValueError(f"{course.folder}: nothing to score")
-    shares, _ = shares_of(core.evidence, 1.0)
+    shares, *_ = shares_of(core.evidence, 1.0)
     theirs = score_map(reference.navigable(), truth)
     row = {"course": course.name, "frames": frames}
     row |= score(core.world_map(), percept.rocks, course.truth)

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from rover_common.dataflow import GridMap, Rock
+from rover_common.dataflow import EDGE, GridMap, Rock
 from rover_common.scoring import navigable_cells
 
 # map_server's pixel values in trinary mode
@@ -28,7 +28,7 @@ GREEN, RED, BLUE, YELLOW = "#6baf6b", "#d7443e", "#2b6cb0", "#f2c500"
 def save_map_server_pair(grid: GridMap, stem: Path) -> None:
     """Write `<stem>.pgm` and `<stem>.yaml`, as nav2's map_server loads them."""
     image = np.full(grid.cells.shape, UNKNOWN, np.uint8)
-    image[grid.cells >= 0] = OCCUPIED
+    image[grid.cells > EDGE] = OCCUPIED
     image[navigable_cells(grid.cells)] = FREE
     # The file's first row is the north edge, the grid's is the south edge.
     cv2.imwrite(str(stem.with_suffix(".pgm")), image[::-1])
@@ -69,7 +69,7 @@ def draw_map(
         grid.origin_y,
         grid.origin_y + height * grid.resolution,
     )
-    classes = np.select([navigable, grid.cells >= 0], [1, 2], 0)
+    classes = np.select([navigable, grid.cells > EDGE], [1, 2], 0)
     _show(axes[0], classes, [GREY, WHITE, DARK], ["unknown", "navigable", "obstacle"], extent)
     axes[0].set_title("map")
     if truth is not None:

@@ -99,6 +99,10 @@ class VehicleState:
     sample_count: int  # not yet collected
 
 
+# A cell at the foot of a wall, seen from too far away to tell the wall from the ground before it.
+EDGE = 50
+
+
 @dataclass(frozen=True)
 class GridMap:
     """The world map as decision sees it: an OccupancyGrid's cells."""

@@ -19,6 +19,9 @@ LOOKAHEAD = (1.2, 3.0)  # [m] least and most
 BEND_REACH = 2  # points before and after, between which a bend is measured
 HORIZON = 15.0  # [m] of the way that decides on the speed
 BEND_MARGIN = 0.8  # of the vehicle's sharpest bend
+# [m/s] The sharpest bend has a radius of 2.8 m at rest and of 3.4 m at this speed: to go slower
+# gains little, and where even that is too wide, the rover turns on the spot.
+BEND_SLOWEST = 1.2
 SHARP = math.radians(65.0)  # beyond, the rover turns on the spot
 ALIGNED = math.radians(15.0)  # until here, once it stands
 STANDING = 0.3  # [m/s]
@@ -102,5 +105,5 @@ def _bend_speeds(points: NDArray[np.float64]) -> NDArray[np.float64]:
     length = 0.5 * (np.hypot(*before.T) + np.hypot(*after.T))
     curvature = angle / np.maximum(length, 1e-3) / BEND_MARGIN
     wheel = np.degrees(np.arctan(curvature * WHEELBASE / motion.YAW_FACTOR))
-    speeds[BEND_REACH:-BEND_REACH] = np.clip((15.0 - wheel) / 2.0, STEP_DOWN, MAX_SPEED)
+    speeds[BEND_REACH:-BEND_REACH] = np.clip((15.0 - wheel) / 2.0, BEND_SLOWEST, MAX_SPEED)
     return speeds

@@ -8,9 +8,9 @@ from rover_common.dataflow import Command
 from rover_common.vehicle import MAX_SPEED, MAX_STEERING, TURN_IN_PLACE_BELOW, WHEELBASE
 
 THROTTLE_PER_SPEED = 1.5  # [s/m] throttle per missing speed
-BRAKE_PER_SPEED = 0.5  # [s/m] brake per excess speed
+BRAKE_PER_SPEED = 1.0  # [s/m] brake per excess speed
 SPEED_SLACK = 0.25  # [m/s] of excess without the brake: coasting sheds it gently
-COMFORT_DECELERATION = 1.2  # [m/s^2]; full brake gives 2.5
+COMFORT_DECELERATION = 1.8  # [m/s^2]; full brake gives 2.5
 STEERING_PER_BEARING = 0.8
 TURN_TOLERANCE = math.radians(4.0)
 # The front wheels turn by 15 degrees at rest and by 5 at full speed; the yaw rate is this share of

@@ -43,6 +43,8 @@ class EvidenceGrid:
         # sure looks from any range: at free ground, and at the foot of an obstacle
         self.free_looks = np.zeros_like(self.free)
         self.foot_looks = np.zeros_like(self.free)
+        # the same, but at an edge that was seen too coarsely to tell on which side of it a cell is
+        self.edge_looks = np.zeros_like(self.free)
         self._reach = math.ceil(max_range / geometry.resolution)  # cells
         self._ahead = _cells_by_heading(max_range, geometry)
 
@@ -95,6 +97,7 @@ class EvidenceGrid:
         beyond = body[near]
         sure_beyond = 1.0 - np.exp(-0.5 * np.square(margin[beyond] / error[beyond]))
         _add_at(self.foot_looks, cell[near], sure[near] * sure_beyond)
+        _add_at(self.edge_looks, cell[near], sure[near] * (1.0 - sure_beyond))
 
     def _cells_around(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray]:
         """Flat indices of the cells that may be in the fan, and their level-frame points [m]."""

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.dataflow import GridMap
+from rover_common.dataflow import EDGE, GridMap
 from rover_perception.evidence import EvidenceGrid
 
 ENOUGH = 0.5  # sure looks; with less, a cell is more likely unseen than seen
@@ -17,13 +17,14 @@ FREE_SHARE = 0.65
 
 
 def occupancy_of(evidence: EvidenceGrid, resolution: float) -> GridMap:
-    """OccupancyGrid cells: -1 unknown, below 50 navigable, else an obstacle.
+    """OccupancyGrid cells: -1 unknown, below 50 navigable, above an obstacle, and EDGE.
 
     Inside a class, the value is the share [%] of the cell that is not free.
     """
     geometry = evidence.geometry
-    free_share, blocked_share = shares_of(evidence, resolution)
+    free_share, blocked_share, edge_share = shares_of(evidence, resolution)
     cells = np.full(free_share.shape, -1, np.int8)
+    cells[edge_share + blocked_share > 1.0 - FREE_SHARE] = EDGE
     blocked = blocked_share > 1.0 - FREE_SHARE
     cells[blocked] = np.round(50 + 50 * blocked_share[blocked]).astype(np.int8)
     navigable = free_share >= FREE_SHARE
@@ -33,14 +34,16 @@ def occupancy_of(evidence: EvidenceGrid, resolution: float) -> GridMap:
 
 def shares_of(
     evidence: EvidenceGrid, resolution: float
-) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
-    """Shares (rows, cols) of each cell of a resolution [m] that are free, and that are blocked."""
+) -> tuple[NDArray[np.floating], ...]:
+    """Shares (rows, cols) of each cell of a resolution [m]: free, blocked, an edge far off."""
     count = round(resolution / evidence.geometry.resolution)
     seen = evidence.free_looks + evidence.foot_looks >= ENOUGH
     is_free = evidence.free > evidence.blocked
     # What is only guessed to lie behind an obstacle is not known, whatever was seen from afar.
     blocked = ~is_free & (evidence.foot_looks >= ENOUGH)
-    return _share(seen & is_free, count), _share(blocked, count)
+    is_free &= seen
+    edge = ~is_free & ~blocked & (evidence.foot_looks + evidence.edge_looks >= ENOUGH)
+    return _share(is_free, count), _share(blocked, count), _share(edge, count)
 
 
 def _share(mask: NDArray[np.bool_], count: int) -> NDArray[np.floating]:

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.dataflow import GridMap
+from rover_common.dataflow import EDGE, GridMap
 from rover_common.grid import GridGeometry
 from rover_common.scoring import FREE_BELOW
 
@@ -34,7 +34,8 @@ class Costmap:
 
     geometry: GridGeometry
     free: NDArray[np.bool_]
-    unknown: NDArray[np.bool_]
+    unknown: NDArray[np.bool_]  # edges seen from afar as well
+    edge: NDArray[np.bool_]
     clearance: NDArray[np.float32]  # [m] from a cell's centre to the nearest obstacle's edge
 
     @classmethod
@@ -47,8 +48,9 @@ class Costmap:
     ) -> Costmap:
         """`trail` (n, 2) [m]: where the rover has been; `body` [m]: where it stands."""
         geometry, cells = _crop(grid, body)
-        obstacle = cells >= FREE_BELOW
-        unknown = cells < 0
+        edge = cells == EDGE
+        obstacle = (cells >= FREE_BELOW) & ~edge
+        unknown = (cells < 0) | edge
         been = _discs(geometry, trail, TRAIL_RADIUS)
         here = _discs(geometry, np.array([body]), BODY_RADIUS) & unknown
         obstacle &= ~been
@@ -60,7 +62,7 @@ class Costmap:
         clearance = cv2.distanceTransform((~obstacle).astype(np.uint8), cv2.DIST_L2, 5)
         metres = np.asarray(clearance, np.float32) * geometry.resolution
         clearance = np.maximum(0.0, metres - geometry.resolution / 2)
-        return cls(geometry, ~obstacle & ~unknown, unknown, clearance)
+        return cls(geometry, ~obstacle & ~unknown, unknown, edge & unknown, clearance)
 
 
 def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArray[np.int8]]:

@@ -22,11 +22,18 @@ class Frontier:
 
     x: NDArray[np.float64]  # (n,) [m] map frame, its cells
     y: NDArray[np.float64]  # (n,) [m]
+    open: NDArray[np.bool_]  # (n,) not just the foot of a wall that was seen from afar
+    behind: NDArray[np.float64]  # (n,) [m^2] of connected unknown ground; inf: without known end
 
     @property
     def length(self) -> int:
         """[cells]"""
         return len(self.x)
+
+    @property
+    def leads_on(self) -> bool:
+        """Whether there may be a way on behind it; else it is a strip along a wall."""
+        return int(np.count_nonzero(self.open)) >= SMALLEST
 
 
 def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Frontier]:
@@ -42,12 +49,25 @@ def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Front
     rows, cols = np.nonzero(border)
     order = np.argsort(labels[rows, cols], kind="stable")
     ends = np.cumsum(np.bincount(labels[rows, cols], minlength=count + 1)[1:])
-    x, y = costmap.geometry.center_of(rows[order], cols[order])
-    frontiers = [
-        Frontier(*part) for part in zip(np.split(x, ends[:-1]), np.split(y, ends[:-1]), strict=True)
-    ]
+    rows, cols = rows[order], cols[order]
+    nothing = (costmap.unknown & ~costmap.edge).astype(np.uint8)
+    is_open = cv2.dilate(nothing, SQUARE)[rows, cols] > 0
+    behind = cv2.dilate(_areas(unknown, costmap.geometry.resolution), SQUARE)[rows, cols]
+    columns = (*costmap.geometry.center_of(rows, cols), is_open, behind)
+    parts = zip(*(np.split(column, ends[:-1]) for column in columns), strict=True)
+    frontiers = [Frontier(*part) for part in parts]
     large = [frontier for frontier in frontiers if frontier.length >= SMALLEST]
     return sorted(large, key=lambda frontier: -frontier.length)
+
+
+def _areas(unknown: NDArray[np.uint8], resolution: float) -> NDArray[np.float32]:
+    """For each unknown cell the area [m^2] of its connected region, inf at the map's border."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(unknown, connectivity=4)
+    areas = stats[:, cv2.CC_STAT_AREA].astype(np.float32) * np.float32(resolution**2)
+    for edge in (labels[0], labels[-1], labels[:, 0], labels[:, -1]):
+        areas[edge] = np.inf
+    areas[0] = 0.0
+    return np.asarray(areas[labels])
 
 
 def near_visited(

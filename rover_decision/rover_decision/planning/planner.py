@@ -21,7 +21,7 @@ from rover_decision.planning.dataflow import (
     PlanRequest,
 )
 from rover_decision.planning.frontiers import Frontier, find_frontiers, near_visited
-from rover_decision.planning.roadmap import Roadmap, Ways
+from rover_decision.planning.roadmap import COARSE, Roadmap, Ways
 from rover_decision.planning.tour import MOST_STOPS, tour_costs
 from rover_decision.planning.ways import drivable_way
 
@@ -36,6 +36,10 @@ SHARP = math.radians(60.0)  # a turn that is made on the spot
 # [m] A rock in the open shows from the first on in every look, one half buried or behind the swell
 # of a wall's foot from the second on.
 SEARCH_DISTANCES = (5.0, 3.0)
+STRIP_DEPTH = 0.75
+SECONDS_PER_AREA = 1.0
+DETOUR_SECONDS = 3.0
+MOST_STRIPS = 4
 UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 
 
@@ -43,6 +47,7 @@ UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 class _Stop:
     goal: Goal
     node: int
+    worth: float = math.inf  # [s] of detour
 
 
 class Planner:
@@ -75,8 +80,10 @@ class Planner:
         ways = roadmap.ways_from([start])
         stops = self._stops(request, roadmap, ways, frontiers)
         goal_way, goal = NO_WAY, None
-        if stops:
-            best = self._choose(request, roadmap, ways, stops, home)
+        best = self._choose(request, roadmap, ways, stops, home)
+        if best is None and request.search:
+            best = _unsearched(request, roadmap, ways.seconds[0])
+        if best is not None:
             goal, goal_way = best.goal, drivable_way(roadmap.way(ways, 0, best.node), costmap)
         home_way, home_seconds = NO_WAY, math.inf
         if home >= 0 and np.isfinite(ways.seconds[0, home]):
@@ -93,7 +100,7 @@ class Planner:
     def _stops(
         self, request: PlanRequest, roadmap: Roadmap, ways: Ways, frontiers: list[Frontier]
     ) -> list[_Stop]:
-        """The nearest of what is left: rocks and frontiers, or else ground not searched."""
+        """The nearest of what is left: rocks and frontiers."""
         seconds = ways.seconds[0]
         found: list[_Stop] = []
         for rock in request.rocks:
@@ -104,15 +111,22 @@ class Planner:
             cost = np.where(nodes >= 0, seconds[nodes], np.inf)
             nearest = int(np.argmin(cost))
             x, y = float(frontier.x[nearest]), float(frontier.y[nearest])
-            found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest])))
+            metres = frontier.length * roadmap.geometry.resolution / COARSE
+            depth = math.inf if frontier.leads_on else STRIP_DEPTH
+            area = min(0.5 * float(frontier.behind.max()), metres * depth)
+            worth = SECONDS_PER_AREA * area - DETOUR_SECONDS
+            found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest]), worth))
         found = [stop for stop in found if stop.node >= 0 and np.isfinite(seconds[stop.node])]
-        if not found and request.search:
-            found = _unsearched(request, roadmap, seconds)
-        return sorted(found, key=lambda stop: float(seconds[stop.node]))[:MOST_STOPS]
+        found = sorted(found, key=lambda stop: float(seconds[stop.node]))
+        strips = [stop for stop in found if math.isfinite(stop.worth)][:MOST_STRIPS]
+        rest = [stop for stop in found if not math.isfinite(stop.worth)]
+        return rest[:MOST_STOPS-len(strips)] + strips
 
     def _choose(
         self, request: PlanRequest, roadmap: Roadmap, ways: Ways, stops: list[_Stop], home: int
-    ) -> _Stop:
+    ) -> _Stop | None:
+        if not stops:
+            return None
         nodes = [stop.node for stop in stops]
         first = ways.seconds[0, nodes] + [
             _turn_seconds(request.pose, roadmap.way(ways, 0, node)) for node in nodes
@@ -120,7 +134,12 @@ class Planner:
         if self._whole_tour:
             onward = roadmap.ways_from(nodes).seconds
             last = onward[:, home] if home >= 0 else np.zeros(len(stops))
-            cost = tour_costs(first, onward[:, nodes], np.where(np.isfinite(last), last, 0.0))
+            worth = np.array([stop.worth for stop in stops])
+            last = np.where(np.isfinite(last), last, 0.0)
+            cost = tour_costs(first, onward[:, nodes], last, worth)
+            straight = ways.seconds[0, home] if home >= 0 else 0.0
+            if worth.sum() + (straight if math.isfinite(straight) else 0.0) < cost.min():
+                return None
         else:
             cost = first
         cost = cost - LOYALTY * np.array([_same(stop.goal, request.last_goal) for stop in stops])
@@ -134,10 +153,10 @@ def _node_near(roadmap: Roadmap, point: tuple[float, float], reach: float) -> in
 
 def _unsearched(
     request: PlanRequest, roadmap: Roadmap, seconds: NDArray[np.float64]
-) -> list[_Stop]:
+) -> _Stop | None:
     """The nearest drivable place that was not looked at from near, or else from nearer still."""
     if request.searched is None or len(roadmap) == 0:
-        return []
+        return None
     row, col = request.searched.geometry.cell_of(roadmap.x, roadmap.y)
     nearest_look = request.searched.distance[row, col]
     at_hand = np.isfinite(seconds)
@@ -146,10 +165,9 @@ def _unsearched(
         left = at_hand & (nearest_look > distance)
         if left.any():
             node = int(np.argmin(np.where(left, seconds, np.inf)))
-            return [
-                _Stop(Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node])), node)
-            ]
-    return []
+            goal = Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node]))
+            return _Stop(goal, node)
+    return None
 
 
 def _turn_seconds(pose: Pose, way: NDArray[np.float64]) -> float:

@@ -9,12 +9,16 @@ MOST_STOPS = 9  # the exact solution takes time and memory with the power of thi
 
 
 def tour_costs(
-    first: NDArray[np.float64], between: NDArray[np.float64], last: NDArray[np.float64]
+    first: NDArray[np.float64],
+    between: NDArray[np.float64],
+    last: NDArray[np.float64],
+    worth: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """For each stop (n,), the length [s] of the shortest tour over all stops that begins with it.
+    """For each stop (n,), the least cost [s] of a tour to the end that begins with it.
 
     `first` (n,) [s] to each stop from where the rover is, `between` (n, n), `last` (n,) from each
-    stop to the end. Held and Karp's recursion over the sets of stops still to visit.
+    stop to the end; `worth` (n,) [s] is what a stop left out costs. Held and Karp's recursion over
+    the sets of stops still to visit.
     """
     count = len(first)
     if count > MOST_STOPS:
@@ -26,6 +30,8 @@ def tour_costs(
     for left in range(1, everything + 1):
         members = [stop for stop in range(count) if left >> stop & 1]
         onward = [to_end[left & ~(1 << stop), stop] for stop in members]
-        to_end[left] = (between[:, members] + np.array(onward)).min(axis=1)
+        dropped = [to_end[left & ~(1 << stop)] + worth[stop] for stop in members]
+        visit = (between[:, members] + np.array(onward)).min(axis=1)
+        to_end[left] = np.minimum(visit, np.min(dropped, axis=0))
     rest = [to_end[everything & ~(1 << stop), stop] for stop in range(count)]
     return np.asarray(first + np.array(rest))
