@@ -11,10 +11,11 @@ from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
 from rover_decision.follower import follow
-from rover_decision.memory import Memory
+from rover_decision.goals import LINGER, GoalMemory
+from rover_decision.memory import ON_ONE_SPOT, Memory
 from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
 from rover_decision.observers import CircleMonitor, ProgressMonitor
-from rover_decision.planning.dataflow import Way
+from rover_decision.planning.dataflow import Goal, GoalKind, Way
 from rover_decision.recovery import LADDER
 from rover_decision.rocks import MOST_TRIES
 from rover_decision.states import State
@@ -202,6 +203,59 @@ def test_requests():
     assert mission.tick(snapshot(1.2)).state is State.FORWARD
     assert mission.return_home()
     assert mission.state is State.RETURN_HOME
+
+
+def test_after_a_long_pause_it_goes_on_as_before():
+    mission = Mission(CONFIG)
+    mission.tick(snapshot(1.0, plan=PLAN))
+    mission.pause()
+    for time in np.arange(1.1, 60.0, 0.5):
+        assert mission.tick(snapshot(time, plan=PLAN)).state is State.PAUSED
+    mission.resume()
+    states = {mission.tick(snapshot(60.0 + 0.1 * i, plan=PLAN)).state for i in range(20)}
+    assert states == {State.FORWARD}
+
+
+def test_to_turn_to_and_fro_on_one_spot_is_no_progress():
+    """Each turn is progress for itself, and so is each change between FORWARD and STOP."""
+    mission = Mission(CONFIG)
+    states = []
+    for time in np.arange(1.0, 1.5 * ON_ONE_SPOT, 0.1):
+        yaw = 2.0 * math.sin(0.8 * time)
+        ahead = 0.5 if math.sin(0.4 * time) > 0 else 10.0
+        plan = straight_plan(pose=Pose(MIDDLE.x, MIDDLE.y, yaw))
+        pose = Pose(MIDDLE.x, MIDDLE.y, yaw)
+        states.append(mission.tick(snapshot(time, pose, ahead, plan=plan)).state)
+    assert {State.FORWARD, State.STOP} < set(states)
+    assert states.index(State.STUCK) > 10 * 0.8 * ON_ONE_SPOT
+
+
+def test_a_wall_before_it_does_not_keep_it_from_looking_at_its_goal():
+    at_the_end = straight_plan(length=1.0)
+    aside = Goal(GoalKind.FRONTIER, MIDDLE.x, MIDDLE.y + 3.0)
+    mission = Mission(CONFIG)
+    mission.tick(snapshot(1.0))
+    for time in np.arange(1.1, 3.0, 0.1):
+        decision = mission.tick(
+            snapshot(time, ahead=0.9, plan=dataclasses.replace(at_the_end, goal=aside))
+        )
+        assert decision.state is State.FORWARD
+        assert decision.command.steering_angle > 0  # to the left, where the goal is
+        assert decision.command.throttle == decision.command.brake == 0
+
+
+def test_what_was_looked_at_in_vain_is_left_alone_and_the_more_of_it_the_farther_off():
+    def settled(distance: float) -> np.ndarray:
+        goals = GoalMemory()
+        way = straight_plan(length=1.0)
+        goal = Goal(GoalKind.FRONTIER, MIDDLE.x + distance, MIDDLE.y)
+        for time in np.arange(0.0, LINGER + 0.5, 0.1):
+            goals.update(float(time), MIDDLE, dataclasses.replace(way, goal=goal))
+        return goals.visited(5.0)
+
+    near, far = settled(2.0), settled(8.0)
+    assert near[:, :2].tolist() == [[MIDDLE.x + 2.0, MIDDLE.y]]
+    assert far[0, 2] > 1.5 * near[0, 2] > 1.0
 
 
 def test_time_that_falls_back_starts_anew():

@@ -12,17 +12,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rover import rock, straight_plan
 
-from rover_common.dataflow import GridMap
+from rover_common.dataflow import EDGE, GridMap
 from rover_common.geometry import Pose
 from rover_decision.crumbs import Crumbs, way_over_crumbs
 from rover_decision.planning.costmap import Blocked, Costmap
 from rover_decision.planning.dataflow import GoalKind, PlanRequest
 from rover_decision.planning.desk import PlanDesk
+from rover_decision.planning.frontiers import find_frontiers
 from rover_decision.planning.planner import Planner
 from rover_decision.planning.tour import MOST_STOPS, tour_costs
+from rover_decision.planning.ways import SLOWEST, drivable_way
 
 HERE = Pose(20.0, 20.0, 0.0)
 NOWHERE = np.empty((0, 2))
+NOT_VISITED = np.empty((0, 3))
 
 
 def grid(*free: tuple[float, float, float, float], walls: bool = True) -> GridMap:
@@ -41,10 +44,10 @@ def _cells(low: float, high: float) -> slice:
     return slice(round(low * 4), round(high * 4))
 
 
-def opened(map_: GridMap, x0: float, y0: float, x1: float, y1: float) -> GridMap:
-    """The same map with a part of it unknown."""
+def opened(map_: GridMap, x0: float, y0: float, x1: float, y1: float, value: int = -1) -> GridMap:
+    """The same map with a part of it unknown, or of another value."""
     cells = map_.cells.copy()
-    cells[_cells(y0, y1), _cells(x0, x1)] = -1
+    cells[_cells(y0, y1), _cells(x0, x1)] = value
     return GridMap(map_.resolution, 0.0, 0.0, cells)
 
 
@@ -55,7 +58,7 @@ OPEN_EAST = opened(HALL, 40, 16, 41, 24)  # a door in the east wall
 def request(map_: GridMap, **changes) -> PlanRequest:
     fields = {
         "stamp": 7, "grid": map_, "pose": HERE, "home": (12.0, 20.0), "trail": NOWHERE,
-        "rocks": (), "blocked": (), "visited": np.empty((0, 3)), "searched": None, "search": False,
+        "rocks": (), "blocked": (), "visited": NOT_VISITED, "searched": None, "search": False,
         "last_goal": None,
     }  # fmt: skip
     return PlanRequest(**(fields | changes))
@@ -90,6 +93,33 @@ def test_a_border_too_short_for_a_way_on_is_no_goal():
 def test_places_visited_in_vain_are_no_goals():
     made = plan(OPEN_EAST, visited=np.array([[39.9, y, 1.5] for y in np.arange(16, 25)]))
     assert made.goal is None
+
+
+def with_edge(x0: float, x1: float) -> GridMap:
+    """The hall with a piece of its south wall seen from afar only."""
+    return opened(HALL, x0, 14, x1, 15, EDGE)
+
+
+def test_a_wall_seen_from_afar_is_looked_at_where_that_costs_little():
+    on_the_way = plan(with_edge(14, 22), pose=Pose(36.0, 17.0, math.pi), home=(12.0, 17.0))
+    assert on_the_way.goal is not None
+    assert on_the_way.goal.y == pytest.approx(15, abs=0.5)
+    off_the_way = plan(with_edge(34, 38), pose=Pose(12.0, 20.0, 0.0), home=(12.0, 20.0))
+    assert off_the_way.goal is None
+    assert len(off_the_way.frontiers) == 1  # it is still shown
+    as_wide_a_door = opened(HALL, 34, 14, 38, 15)
+    assert plan(as_wide_a_door, pose=Pose(12.0, 20.0, 0.0), home=(12.0, 20.0)).goal is not None
+
+
+def test_an_unknown_patch_amid_known_ground_is_worth_what_it_can_hide():
+    def worth(size: float) -> float:
+        patch = opened(HALL, 30, 18, 30 + size, 18 + size)
+        costmap = Costmap.of(patch, NOWHERE, (12.0, 20.0))
+        return sum(frontier.hides for frontier in find_frontiers(costmap, NOT_VISITED))
+
+    assert worth(2.0) == pytest.approx(0.5 * 2.0**2)
+    assert worth(4.0) == pytest.approx(0.5 * 4.0**2)
+    assert find_frontiers(Costmap.of(OPEN_EAST, NOWHERE, (12, 20)), NOT_VISITED)[0].hides > 1e9
 
 
 def test_blocked_places_are_driven_around():
@@ -142,22 +172,61 @@ def test_tours_are_the_shortest(count, seed):
     random = np.random.default_rng(seed)
     first, last = random.uniform(1, 50, count), random.uniform(1, 50, count)
     between = random.uniform(1, 50, (count, count))
-    costs = tour_costs(first, between, last)
+    worth = np.where(random.random(count) < 0.5, np.inf, random.uniform(-3, 60, count))
+    costs = tour_costs(first, between, last, worth)
     for start in range(count):
         others = [stop for stop in range(count) if stop != start]
-        orders = [(start, *rest) for rest in itertools.permutations(others)]
+        orders = [
+            (start, *rest)
+            for length in range(count)
+            for rest in itertools.permutations(others, length)
+        ]
         onward = [sum(between[a, b] for a, b in itertools.pairwise(order)) for order in orders]
+        missed = [sum(worth[stop] for stop in others if stop not in order) for order in orders]
         best = min(
-            first[start] + seconds + last[order[-1]]
-            for order, seconds in zip(orders, onward, strict=True)
+            first[start] + seconds + last[order[-1]] + missing
+            for order, seconds, missing in zip(orders, onward, missed, strict=True)
         )
         assert costs[start] == pytest.approx(best)
+
+
+def staircase(corner: float) -> np.ndarray:
+    """East, then north: cells' centres around a right angle at (corner, 20) [m]."""
+    east = [(x, 20.0) for x in np.arange(12.0, corner, 0.5)]
+    return np.array(east + [(corner, y) for y in np.arange(20.0, 24.0, 0.5)])
+
+
+def sharpest(points: np.ndarray) -> float:
+    """The largest turn [rad] between two steps."""
+    heading = np.unwrap(np.arctan2(*np.diff(points, axis=0).T[::-1]))
+    return float(np.abs(np.diff(heading)).max())
+
+
+def test_a_way_is_rounded_off_where_there_is_room_and_keeps_its_ends():
+    open_hall = Costmap.of(HALL, NOWHERE, (12.0, 20.0))
+    narrow = Costmap.of(grid((10, 19, 30.75, 21), (29, 15, 31, 25)), NOWHERE, (12.0, 20.0))
+    raw = staircase(30.0)
+    wide_way, narrow_way = drivable_way(raw, open_hall), drivable_way(raw, narrow)
+    for way in (wide_way, narrow_way):
+        assert np.allclose(way.points[[0, -1]], raw[[0, -1]])
+    assert sharpest(raw) == pytest.approx(math.pi / 2)
+    assert sharpest(wide_way.points) < math.radians(15)
+    assert sharpest(wide_way.points) < sharpest(narrow_way.points) / 1.5
+    assert wide_way.speeds.min() > narrow_way.speeds.min() >= SLOWEST
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 4])
+def test_a_way_may_be_short(count):
+    raw = staircase(30.0)[:count]
+    way = drivable_way(raw, Costmap.of(HALL, NOWHERE, (12.0, 20.0)))
+    assert np.allclose(way.points, raw)
+    assert len(way.speeds) == count
 
 
 def test_too_many_stops_are_refused():
     count = MOST_STOPS + 1
     with pytest.raises(ValueError, match="at most"):
-        tour_costs(np.ones(count), np.ones((count, count)), np.ones(count))
+        tour_costs(np.ones(count), np.ones((count, count)), np.ones(count), np.ones(count))
 
 
 def test_crumbs_cut_loops_out():

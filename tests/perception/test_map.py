@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scene import BRIGHT_SKY, SHADOWED_SAND, SKY, WALL, draw
 
-from rover_common.dataflow import CameraFrame
+from rover_common.dataflow import EDGE, CameraFrame
 from rover_common.geometry import Pose
 from rover_common.scoring import navigable_cells
 from rover_perception.config import PerceptionConfig
@@ -146,10 +146,12 @@ def test_a_few_looks_at_a_wall_from_afar_leave_its_foot_to_be_explored():
             core.process(frame)
         return core.driving_map().cells[396:404, 396:404]  # [m] 99 to 101
 
-    assert (at_the_end(94.0) < 50).all()
+    far = at_the_end(94.0)
+    assert (far <= EDGE).all()
+    assert (far == EDGE).any(axis=1).all()
     near = at_the_end(97.0)
-    assert (near[:, 5] >= 50).all()
-    assert (near[:, :3] < 50).all()
+    assert (near[:, 5] > EDGE).all()
+    assert (near[:, :3] < EDGE).all()
 
 
 def test_evidence_can_be_taken_back():

@@ -13,6 +13,10 @@ from rover_decision.planning.costmap import Costmap
 
 # [cells] 2.5 m: no way on is as narrow, and what a shorter border hides is not worth the way there
 SMALLEST = 10
+# [m] of ground that may hide between the foot of a wall as seen from afar and the wall
+STRIP_DEPTH = 0.75
+# of an unknown patch amid known ground: the rest of it is the rock that hid it
+PATCH_SHARE = 0.5
 SQUARE = np.ones((3, 3), np.uint8)
 
 
@@ -20,10 +24,11 @@ SQUARE = np.ones((3, 3), np.uint8)
 class Frontier:
     """One connected border."""
 
+    resolution: float  # [m] of its cells
     x: NDArray[np.float64]  # (n,) [m] map frame, its cells
     y: NDArray[np.float64]  # (n,) [m]
     open: NDArray[np.bool_]  # (n,) not just the foot of a wall that was seen from afar
-    behind: NDArray[np.float64]  # (n,) [m^2] of connected unknown ground; inf: without known end
+    behind: NDArray[np.float64]  # (n,) [m^2] of connected unknown ground; inf: no end known
 
     @property
     def length(self) -> int:
@@ -34,6 +39,12 @@ class Frontier:
     def leads_on(self) -> bool:
         """Whether there may be a way on behind it; else it is a strip along a wall."""
         return int(np.count_nonzero(self.open)) >= SMALLEST
+
+    @property
+    def hides(self) -> float:
+        """[m^2] of ground that there may be behind it; inf where no end of it is known."""
+        patch = PATCH_SHARE * float(self.behind.max())
+        return patch if self.leads_on else min(patch, self.length * self.resolution * STRIP_DEPTH)
 
 
 def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Frontier]:
@@ -55,7 +66,7 @@ def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Front
     behind = cv2.dilate(_areas(unknown, costmap.geometry.resolution), SQUARE)[rows, cols]
     columns = (*costmap.geometry.center_of(rows, cols), is_open, behind)
     parts = zip(*(np.split(column, ends[:-1]) for column in columns), strict=True)
-    frontiers = [Frontier(*part) for part in parts]
+    frontiers = [Frontier(costmap.geometry.resolution, *part) for part in parts]
     large = [frontier for frontier in frontiers if frontier.length >= SMALLEST]
     return sorted(large, key=lambda frontier: -frontier.length)
 

@@ -21,14 +21,13 @@ from rover_decision.planning.dataflow import (
     PlanRequest,
 )
 from rover_decision.planning.frontiers import Frontier, find_frontiers, near_visited
-from rover_decision.planning.roadmap import COARSE, Roadmap, Ways
+from rover_decision.planning.roadmap import Roadmap, Ways
 from rover_decision.planning.tour import MOST_STOPS, tour_costs
 from rover_decision.planning.ways import drivable_way
 
 REACH_FROM_BODY = 3.0  # [m] to the nearest drivable cell, from where the rover or its home is
 REACH_OF_FRONTIER = 10.0  # [m] from the place to look at it from
 REACH_OF_ROCK = 2.5  # [m] from the end of the way, where the approach by sight takes over
-VISITED_RADIUS = 1.5  # [m] ground this near to a place given up is that one
 SAME_GOAL = 4.0  # [m] a goal this near to the last one is the same, seen anew
 LOYALTY = 4.0  # [s] that another goal must save before the rover turns to it
 TURN_SECONDS = 2.0  # [s] to stop for a turn on the spot, and to gather speed again
@@ -36,10 +35,11 @@ SHARP = math.radians(60.0)  # a turn that is made on the spot
 # [m] A rock in the open shows from the first on in every look, one half buried or behind the swell
 # of a wall's foot from the second on.
 SEARCH_DISTANCES = (5.0, 3.0)
-STRIP_DEPTH = 0.75
-SECONDS_PER_AREA = 1.0
-DETOUR_SECONDS = 3.0
-MOST_STRIPS = 4
+# What little ground a frontier may hide is worth this detour: a canyon's ground takes about a
+# quarter of it.
+SECONDS_PER_AREA = 1.0  # [s/m^2]
+STOP_SECONDS = 3.0  # to brake, turn and gather speed again, which the ways do not count
+MOST_SMALL = 4  # stops of limited worth that are considered
 UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 
 
@@ -47,7 +47,7 @@ UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 class _Stop:
     goal: Goal
     node: int
-    worth: float = math.inf  # [s] of detour
+    worth: float = math.inf  # [s] that it may take
 
 
 class Planner:
@@ -111,20 +111,18 @@ class Planner:
             cost = np.where(nodes >= 0, seconds[nodes], np.inf)
             nearest = int(np.argmin(cost))
             x, y = float(frontier.x[nearest]), float(frontier.y[nearest])
-            metres = frontier.length * roadmap.geometry.resolution / COARSE
-            depth = math.inf if frontier.leads_on else STRIP_DEPTH
-            area = min(0.5 * float(frontier.behind.max()), metres * depth)
-            worth = SECONDS_PER_AREA * area - DETOUR_SECONDS
+            worth = SECONDS_PER_AREA * frontier.hides - STOP_SECONDS
             found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest]), worth))
         found = [stop for stop in found if stop.node >= 0 and np.isfinite(seconds[stop.node])]
         found = sorted(found, key=lambda stop: float(seconds[stop.node]))
-        strips = [stop for stop in found if math.isfinite(stop.worth)][:MOST_STRIPS]
-        rest = [stop for stop in found if not math.isfinite(stop.worth)]
-        return rest[:MOST_STOPS-len(strips)] + strips
+        small = [stop for stop in found if math.isfinite(stop.worth)][:MOST_SMALL]
+        large = [stop for stop in found if math.isinf(stop.worth)]
+        return large[: MOST_STOPS - len(small)] + small
 
     def _choose(
         self, request: PlanRequest, roadmap: Roadmap, ways: Ways, stops: list[_Stop], home: int
     ) -> _Stop | None:
+        """The stop to go to first; None when none is worth the time."""
         if not stops:
             return None
         nodes = [stop.node for stop in stops]
@@ -137,8 +135,8 @@ class Planner:
             worth = np.array([stop.worth for stop in stops])
             last = np.where(np.isfinite(last), last, 0.0)
             cost = tour_costs(first, onward[:, nodes], last, worth)
-            straight = ways.seconds[0, home] if home >= 0 else 0.0
-            if worth.sum() + (straight if math.isfinite(straight) else 0.0) < cost.min():
+            at_once = ways.seconds[0, home] if home >= 0 else 0.0
+            if worth.sum() + (at_once if math.isfinite(at_once) else 0.0) < cost.min():
                 return None
         else:
             cost = first
