@@ -32,9 +32,7 @@ def occupancy_of(evidence: EvidenceGrid, resolution: float) -> GridMap:
     return GridMap(resolution, geometry.origin_x, geometry.origin_y, cells)
 
 
-def shares_of(
-    evidence: EvidenceGrid, resolution: float
-) -> tuple[NDArray[np.floating], ...]:
+def shares_of(evidence: EvidenceGrid, resolution: float) -> tuple[NDArray[np.floating], ...]:
     """Shares (rows, cols) of each cell of a resolution [m]: free, blocked, an edge far off."""
     count = round(resolution / evidence.geometry.resolution)
     seen = evidence.free_looks + evidence.foot_looks >= ENOUGH

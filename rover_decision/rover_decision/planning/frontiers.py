@@ -50,7 +50,9 @@ class Frontier:
 def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Frontier]:
     """All borders of some length, the longest first; `visited` (n, 3) [m] as for near_visited."""
     # Unknown slivers of less than three cells vanish: they are grazed walls.
-    unknown = cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE)
+    unknown = np.asarray(
+        cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE), np.uint8
+    )
     border = costmap.free & (cv2.dilate(unknown, SQUARE) > 0)
     rows, cols = np.nonzero(border)
     border[rows, cols] = ~near_visited(*costmap.geometry.center_of(rows, cols), visited)
