@@ -55,7 +55,7 @@ class DecisionConfig:
         840.0, "[s] of mission time within which to be home", minimum=10.0, maximum=36000.0
     )
     plan_delay: float = parameter(
-        0.3,
+        0.16,
         "[s] of frame time from the map that a plan is made of to the plan's effect",
         minimum=0.0,
         maximum=5.0,

@@ -28,7 +28,7 @@ class Memory:
 
     def __init__(self, config: DecisionConfig, snapshot: Snapshot) -> None:
         pose = snapshot.vehicle.pose
-        self._stuck_seconds = config.stuck_seconds
+        self._rock_deadline = config.rock_deadline
         self.start_time = snapshot.time
         self.home = (pose.x, pose.y)
         self.samples_total = snapshot.vehicle.sample_count
@@ -96,6 +96,14 @@ class Memory:
         if self.all_collected(snapshot):
             return None
         return self.rocks.nearest(snapshot.rocks, snapshot.vehicle.pose, snapshot.time)
+
+    def approach(self, snapshot: Snapshot, seconds: float) -> None:
+        """Time [s] went into getting to the nearest rock, which is given up after its deadline."""
+        target = self.target(snapshot)
+        if target is not None:
+            self.rocks.spend(target.rock, seconds)
+            if self.rocks.spent(target.rock) > self._rock_deadline:
+                self.rocks.give_up(target.rock, snapshot.time)
 
     def all_collected(self, snapshot: Snapshot) -> bool:
         return self.samples_total > 0 and snapshot.vehicle.sample_count == 0

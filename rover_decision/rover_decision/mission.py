@@ -25,8 +25,8 @@ STOP_SECONDS = 8.0  # [s] of looking for a way, after which the rover counts as 
 RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
 GAP_SECONDS = 1.0  # [s] between two frames: the rover drove blindly
 JUMP = 3.0  # [m] between two frames: somebody has moved it
-PLANS_WITHOUT_GOAL = 6  # in a row, while looking around: nothing is left
-PLANS_UNPLACED = 10  # in a row: turning on the spot does not bring ground to plan on
+PLANS_WITHOUT_GOAL = 12  # in a row, while looking around: nothing is left
+PLANS_UNPLACED = 20  # in a row: turning on the spot does not bring ground to plan on
 HOME_RESERVE = 1.3  # of the time estimated for the way home
 HOME_EXTRA = 30.0  # [s]
 BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where it got stuck
@@ -34,6 +34,8 @@ TILT_AHEAD, TILT_RADIUS = 0.6, 0.5  # [m] where it tilted, for good
 MOVING_STATES = (
     State.FORWARD, State.STOP, State.CIRCLE, State.ROCK_APPROACH, State.RETURN_HOME,
 )  # fmt: skip
+# Time goes into a rock in these, also where a recovery interrupts the approach again and again.
+APPROACHING_STATES = (State.ROCK_APPROACH, State.TILT, State.STUCK)
 EXPLORING_STATES = {State.FORWARD, State.STOP, State.CIRCLE}
 
 
@@ -113,6 +115,8 @@ class Mission:
         self._memory.update(snapshot, self.state in (State.RETURN_HOME, State.DONE))
         terrain = Terrain.of(snapshot.scan, self._config.corridor)
         self._notice_entry(snapshot, terrain, self._memory)  # a person's request came between
+        if self._last is not None and self.state in APPROACHING_STATES:
+            self._memory.approach(snapshot, snapshot.time - self._last[0])
         target = self._memory.target(snapshot)
         event = self._what_happened(snapshot, terrain, target, self._memory)
         self._last = (snapshot.time, snapshot.vehicle.pose)
@@ -145,7 +149,7 @@ class Mission:
             return None
         return (
             self._trouble(snapshot, since, memory)
-            or self._rock_event(snapshot, target, since, memory)
+            or self._rock_event(snapshot, target, memory)
             or self._way_event(snapshot, terrain, since, memory)
         )
 
@@ -160,7 +164,9 @@ class Mission:
 
     def _trouble(self, snapshot: Snapshot, since: float, memory: Memory) -> Event | None:
         pose = snapshot.vehicle.pose
-        if max(abs(pose.pitch), abs(pose.roll)) > self._config.tilt_limit:
+        approaches = self.state is State.ROCK_APPROACH
+        limit = self._config.tilt_limit * (recovery.APPROACH_TILT if approaches else 1.0)
+        if max(abs(pose.pitch), abs(pose.roll)) > limit:
             return Event.tilted
         if self._last is not None:
             time, last = self._last
@@ -178,7 +184,7 @@ class Mission:
         return None
 
     def _rock_event(
-        self, snapshot: Snapshot, target: Target | None, since: float, memory: Memory
+        self, snapshot: Snapshot, target: Target | None, memory: Memory
     ) -> Event | None:
         vehicle = snapshot.vehicle
         if vehicle.near_sample and not vehicle.picking_up and abs(vehicle.speed) < 1.0:
@@ -187,9 +193,6 @@ class Mission:
             near = target is not None and target.distance < self._config.rock_range
             return Event.rock_seen if near and not self._heading_home else None
         if target is None or target.distance > 2.0 * self._config.rock_range:
-            return Event.rock_lost
-        if since > self._config.rock_deadline:
-            memory.rocks.give_up(target.rock, snapshot.time)
             return Event.rock_lost
         return None
 

@@ -11,6 +11,7 @@ from rover_common.vehicle import MAX_STEERING
 from rover_decision import motion
 
 CLEAR_OF = 2.0  # [m] from where it got stuck: the trouble is over
+APPROACH_TILT = 1.5  # of the limit: samples stand on the feet of walls too, and one creeps there
 SAFE_TILT = 0.5  # of the limit: a pose to back to
 BACK_BY = 0.7  # [m] at least, from where it tilted
 AT_SAFE_POSE = 0.4  # [m]

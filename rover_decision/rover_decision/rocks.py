@@ -32,6 +32,7 @@ class RockMemory:
         self._retry_after = retry_after
         self._collected: list[tuple[float, float]] = []
         self._tries: dict[int, _Tries] = {}
+        self._spent: dict[int, float] = {}  # [s] on this try
 
     def worth_going(self, rocks: tuple[Rock, ...], time: float) -> tuple[Rock, ...]:
         """The rocks to collect at `time` [s]."""
@@ -54,8 +55,17 @@ class RockMemory:
         """A sample was picked up at this place [m]."""
         self._collected.append((x, y))
 
+    def spend(self, rock: Rock, seconds: float) -> None:
+        """Time [s] went into getting to a rock."""
+        self._spent[rock.id] = self.spent(rock) + seconds
+
+    def spent(self, rock: Rock) -> float:
+        """[s] since the rock was first gone for, or given up last."""
+        return self._spent.get(rock.id, 0.0)
+
     def give_up(self, rock: Rock, time: float) -> None:
         """For a while; for good after some tries."""
+        self._spent.pop(rock.id, None)
         tries = self._tries.setdefault(rock.id, _Tries(0, time))
         tries.count, tries.last = tries.count + 1, time
 

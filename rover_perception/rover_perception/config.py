@@ -31,7 +31,7 @@ class PerceptionConfig:
         maximum=2,
     )
     map_period: float = parameter(
-        0.5, "[s] of frame time between two world maps", minimum=0.0, maximum=60.0
+        0.25, "[s] of frame time between two world maps", minimum=0.0, maximum=60.0
     )
     vision_period: float = parameter(
         0.2, "[s] of frame time between two vision images", minimum=0.0, maximum=60.0

@@ -135,6 +135,35 @@ def test_a_tilt_stops_backs_off_and_marks_the_place():
     assert mission.tick(snapshot(3.0, pose=level, plan=PLAN)).state is State.FORWARD
 
 
+def test_before_a_rock_on_the_foot_of_a_wall_it_may_lean_further():
+    states = {}
+    for lean in (1.2, 1.8):  # of the limit
+        mission = Mission(CONFIG)
+        beside = (rock(MIDDLE.x + 2.0, MIDDLE.y),)
+        mission.tick(snapshot(1.0, rocks=beside, plan=PLAN))
+        assert mission.tick(snapshot(1.1, rocks=beside, plan=PLAN)).state is State.ROCK_APPROACH
+        leaning = Pose(MIDDLE.x, MIDDLE.y, 0.0, roll=lean * CONFIG.tilt_limit)
+        states[lean] = mission.tick(snapshot(1.2, leaning, rocks=beside, plan=PLAN)).state
+    assert states == {1.2: State.ROCK_APPROACH, 1.8: State.TILT}
+
+
+def test_a_rock_that_it_leans_too_far_before_again_and_again_is_given_up():
+    mission = Mission(CONFIG)
+    beside = (rock(MIDDLE.x + 2.0, MIDDLE.y),)
+    state, tilts, time = State.FORWARD, 0, 1.0
+    while time < 10.0 * CONFIG.rock_deadline:
+        approaches = state is State.ROCK_APPROACH
+        pose = Pose(MIDDLE.x, MIDDLE.y, 0.0, roll=0.3 if approaches else 0.0)
+        decision = mission.tick(snapshot(time, pose, rocks=beside, plan=PLAN))
+        tilts += decision.state is State.TILT and state is not State.TILT
+        if decision.progress.rocks_given_up:
+            break
+        state, time = decision.state, time + 0.1
+    assert decision.progress.rocks_given_up == 1
+    assert tilts > 1
+    assert time < 1.0 + 1.5 * CONFIG.rock_deadline
+
+
 def test_missing_frames_and_jumps_stop_it():
     for later in (
         snapshot(1.2 + GAP_SECONDS, speed=1.0, plan=PLAN),
