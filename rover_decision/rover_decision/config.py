@@ -42,6 +42,12 @@ class DecisionConfig:
     retry_after: float = parameter(
         60.0, "[s] after which a rock given up is tried again", minimum=0.0, maximum=3600.0
     )
+    search_limit: float = parameter(
+        150.0,
+        "[s] of looking for samples on ground that is known, after which they are left",
+        minimum=0.0,
+        maximum=36000.0,
+    )
     stuck_seconds: float = parameter(
         6.0, "[s] without progress after which the rover is stuck", minimum=1.0, maximum=60.0
     )

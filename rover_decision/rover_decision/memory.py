@@ -14,7 +14,7 @@ from rover_decision.dataflow import Progress, Snapshot
 from rover_decision.goals import GoalMemory
 from rover_decision.observers import CircleMonitor, Odometer, ProgressMonitor, SearchedGround
 from rover_decision.planning.costmap import Blocked
-from rover_decision.planning.dataflow import PlanRequest
+from rover_decision.planning.dataflow import GoalKind, PlanRequest
 from rover_decision.planning.desk import MakeRequest
 from rover_decision.recovery import SafePoses
 from rover_decision.rocks import RockMemory, Target
@@ -29,6 +29,9 @@ class Memory:
     def __init__(self, config: DecisionConfig, snapshot: Snapshot) -> None:
         pose = snapshot.vehicle.pose
         self._rock_deadline = config.rock_deadline
+        self._search_limit = config.search_limit
+        self._search_seconds = 0.0
+        self._time = snapshot.time  # [s] of the newest frame
         self.start_time = snapshot.time
         self.home = (pose.x, pose.y)
         self.samples_total = snapshot.vehicle.sample_count
@@ -50,6 +53,10 @@ class Memory:
 
     def update(self, snapshot: Snapshot, on_the_way_home: bool) -> None:
         vehicle, time = snapshot.vehicle, snapshot.time
+        goal = None if snapshot.plan is None else snapshot.plan.goal
+        if goal is not None and goal.kind is GoalKind.SEARCH:
+            self._search_seconds += max(0.0, time - self._time)
+        self._time = time
         self.odometer.update(vehicle.pose)
         self.progress.update(time, vehicle.pose)
         self.travel.update(time, vehicle.pose)
@@ -129,7 +136,7 @@ class Memory:
             blocked=self.blocked,
             visited=self.goals.visited(time),
             searched=self._searched.so_far(),
-            search=not collected,
+            search=not collected and self._search_seconds < self._search_limit,
             last_goal=self.goals.last,
             home_by_crumbs=home_by_crumbs,
         )

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from rover import MIDDLE, PERIOD, PlanarRover, fly, rock, snapshot, straight_plan
 
+from rover_common.dataflow import GridMap
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
@@ -24,6 +25,7 @@ from rover_decision.terrain import Terrain
 CONFIG = DecisionConfig()
 WALL_FOLLOWER = DecisionConfig(explorer="wall_follow_b")
 PLAN = straight_plan()
+EMPTY = GridMap(1.0, 0.0, 0.0, np.full((200, 200), -1, np.int8))
 
 
 def test_it_drives_along_its_plan():
@@ -162,6 +164,20 @@ def test_a_rock_that_it_leans_too_far_before_again_and_again_is_given_up():
     assert decision.progress.rocks_given_up == 1
     assert tilts > 1
     assert time < 1.0 + 1.5 * CONFIG.rock_deadline
+
+
+def test_samples_that_are_nowhere_are_looked_for_only_so_long():
+    limit = CONFIG.search_limit
+    plan = dataclasses.replace(PLAN, goal=Goal(GoalKind.SEARCH, 110.0, 100.0))
+    first = snapshot(1.0, plan=plan)
+    memory = Memory(CONFIG, first)
+    memory.update(first, on_the_way_home=False)
+    searches = {}
+    for time in (2.0, 0.9 * limit, 1.1 * limit):
+        now = snapshot(time, plan=plan)
+        memory.update(now, on_the_way_home=False)
+        searches[time] = memory.request(now, False)(EMPTY).search
+    assert list(searches.values()) == [True, True, False]
 
 
 def test_missing_frames_and_jumps_stop_it():
