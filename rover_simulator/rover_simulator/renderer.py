@@ -70,14 +70,16 @@ class Renderer:
         self._rays = rays / np.linalg.norm(rays, axis=1, keepdims=True)
         self._grain = TEXTURE * noise((512, 512), 1.2, seed=7)
 
-    def hide_sample(self, x: float, y: float) -> None:
-        """The sample at this place [m], if one is there, is gone; takes half a second."""
-        for index in np.flatnonzero((self._samples == (x, y)).all(axis=1)):
+    def hide_sample(self, x: float, y: float) -> bool:
+        """Whether a sample was at this place [m], which now is gone; takes half a second."""
+        there = np.flatnonzero((self._samples == (x, y)).all(axis=1))
+        for index in there:
             self._samples[index] = np.nan
             vertices, triangles = self._solids[index + 1]
             # Below all ground, because the meshes are known by their order.
             self._solids[index + 1] = (vertices - np.array([0, 0, 1000], np.float32), triangles)
             self._build_scene()
+        return len(there) > 0
 
     def _build_scene(self) -> None:
         self._scene = rtcore_scene.EmbreeScene()

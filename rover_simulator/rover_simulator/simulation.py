@@ -44,6 +44,7 @@ class Simulation:
         self.distance = 0.0  # [m] driven
         self._untouched = math.inf  # [s] since the last touch
         self._image = b""
+        self._photographed_at: Pose | None = None  # None: the next picture is another in any case
         self._next_image = self._photograph()
 
     @property
@@ -59,8 +60,8 @@ class Simulation:
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)
-        if self._arm.lifted is not None:
-            self._renderer.hide_sample(*self._arm.lifted)
+        if self._arm.lifted is not None and self._renderer.hide_sample(*self._arm.lifted):
+            self._photographed_at = None
         self.time += self._frame_steps * STEP
         self._image = self._next_image
         self._next_image = self._photograph()
@@ -163,5 +164,9 @@ class Simulation:
         return float(self._terrain.height_at(np.array([pose.x]), np.array([pose.y]))[0])
 
     def _photograph(self) -> bytes:
+        """What the camera sees now; a body that is held sees the same as a frame ago."""
+        if self._vehicle.pose == self._photographed_at:
+            return self._next_image
+        self._photographed_at = self._vehicle.pose
         rendering = self._renderer.render(self._vehicle.pose, self._ground_height())
         return encode_jpeg(rendering.image)
