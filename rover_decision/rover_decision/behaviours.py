@@ -20,6 +20,8 @@ Action = tuple[Command, str]
 STANDING = 0.1  # [m/s]
 CREEP = 0.6  # [m/s] beside a rock: slow enough to keep the camera level
 ASIDE = math.radians(25.0)  # a rock further aside is turned to on the spot
+WAY_AHEAD = math.radians(12.0)  # a way this near to straight ahead can be driven into
+ROOM_TO_GO = 1.2  # of the clearance below which it stops, so that it does not stop at once again
 LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
 SLOWEST = 0.3  # [m/s]
 
@@ -77,17 +79,24 @@ def leave_the_circle(snapshot: Snapshot, terrain: Terrain, config: DecisionConfi
     return drive_towards(snapshot, terrain, bearing, config.top_speed), "leaves the circle"
 
 
+def has_room(terrain: Terrain, bearing: float, config: DecisionConfig) -> bool:
+    """Whether there is enough free way to set out in this direction [rad]."""
+    return terrain.clearance(bearing) > ROOM_TO_GO * config.stop_clearance
+
+
 def look_for_a_way(
     snapshot: Snapshot, terrain: Terrain, side: int, config: DecisionConfig
 ) -> Action:
     """Stop, then turn on the spot: along the plan, or to a side (+1 left) until there is a way."""
     vehicle = snapshot.vehicle
-    if abs(vehicle.speed) > STANDING * 2:
+    if vehicle.speed > STANDING * 2:
         return motion.stop(), "no way ahead: stops"
     if config.explorer not in WALL_FOLLOWERS and snapshot.plan is not None:
         if len(snapshot.plan.way) == 0:
             return motion.turn_in_place(vehicle.speed, LOOK_AROUND), "turns to find a way"
         bearing = wanted_bearing(snapshot, config)
+        if abs(bearing) < WAY_AHEAD and not has_room(terrain, bearing, config):
+            return motion.reverse(0.0), "too near for the new way: backs up"
         return motion.turn_in_place(vehicle.speed, bearing), "turns to the new way"
     way = terrain.way(config.go_clearance)
     bearing = side * LOOK_AROUND if way is None else way

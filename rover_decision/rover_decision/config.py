@@ -20,9 +20,12 @@ class DecisionConfig:
         " does not get on",
         choices=("breadcrumbs", "shortest_path", "bearing"),
     )
-    top_speed: float = parameter(3.0, "[m/s] speed on open ground", minimum=0.2, maximum=5.0)
+    top_speed: float = parameter(3.6, "[m/s] speed on open ground", minimum=0.2, maximum=5.0)
     stop_clearance: float = parameter(
-        1.1, "[m] free way ahead below which the rover stops", minimum=0.5, maximum=10.0
+        0.9,
+        "[m] free way ahead, beyond what braking takes, below which the rover stops",
+        minimum=0.5,
+        maximum=10.0,
     )
     go_clearance: float = parameter(
         2.5, "[m] free way ahead above which a wall follower goes on", minimum=0.5, maximum=20.0
@@ -55,7 +58,7 @@ class DecisionConfig:
         0.16, "[rad] pitch or roll beyond which the rover backs off", minimum=0.05, maximum=1.0
     )
     home_radius: float = parameter(
-        2.0, "[m] distance to the start that counts as home", minimum=0.5, maximum=10.0
+        1.5, "[m] distance to the start that counts as home", minimum=0.5, maximum=10.0
     )
     time_limit: float = parameter(
         840.0, "[s] of mission time within which to be home", minimum=10.0, maximum=36000.0

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
+from rover_decision.follower import bearing_to
 from rover_decision.planning.dataflow import Goal, GoalKind, Plan
 
 AT_GOAL = 1.2  # [m]
-LINGER = 1.5  # [s] at a goal, after which what there was to see has been seen
+LINGER = 1.0  # [s] of looking at a goal, after which what there was to see has been seen
+FACING = math.radians(40.0)  # [rad] a goal further aside is not looked at: the camera sees 54
+UNDERFOOT = 1.0  # [m] the camera sees no ground nearer than this, wherever it looks
 OUT_OF_REACH = 60.0  # [s] on the way to one goal
 FORGET = 150.0  # [s] after which a goal may be tried again
 SAME = 4.0  # [m] between two plans' goals
@@ -51,7 +55,7 @@ class GoalMemory:
         if goal is None or goal.kind is GoalKind.ROCK:
             return
         x, y = plan.way.points[-1]  # where to look at it from
-        if math.hypot(x - pose.x, y - pose.y) > AT_GOAL:
+        if math.hypot(x - pose.x, y - pose.y) > AT_GOAL or not _in_view(goal, pose):
             self._near_since = None
         elif self._near_since is None:
             self._near_since = time
@@ -74,8 +78,21 @@ class GoalMemory:
 
     def visited(self, time: float) -> NDArray[np.float64]:
         """Places not to go to now (n, 3): x, y and radius [m]."""
-        self._visited = [entry for entry in self._visited if entry[3] > time]
-        return np.array([entry[:3] for entry in self._visited], float).reshape(-1, 3)
+        return _discs(entry for entry in self._visited if entry[3] > time)
+
+    def doubtful(self, time: float) -> NDArray[np.float64]:
+        """Places that may be tried again (n, 3), but were in vain before: x, y and radius [m]."""
+        return _discs(entry for entry in self._visited if entry[3] <= time)
+
+
+def _discs(entries: Iterable[tuple[float, ...]]) -> NDArray[np.float64]:
+    return np.array([entry[:3] for entry in entries], float).reshape(-1, 3)
+
+
+def _in_view(goal: Goal, pose: Pose) -> bool:
+    if math.hypot(goal.x - pose.x, goal.y - pose.y) < UNDERFOOT:
+        return True
+    return abs(bearing_to(pose, goal.x, goal.y)) < FACING
 
 
 def _same(a: Goal | None, b: Goal | None) -> bool:

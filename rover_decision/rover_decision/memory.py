@@ -12,7 +12,13 @@ from rover_decision.config import DecisionConfig
 from rover_decision.crumbs import Crumbs
 from rover_decision.dataflow import Progress, Snapshot
 from rover_decision.goals import GoalMemory
-from rover_decision.observers import CircleMonitor, Odometer, ProgressMonitor, SearchedGround
+from rover_decision.observers import (
+    CircleMonitor,
+    HeldMonitor,
+    Odometer,
+    ProgressMonitor,
+    SearchedGround,
+)
 from rover_decision.planning.costmap import Blocked
 from rover_decision.planning.dataflow import GoalKind, PlanRequest
 from rover_decision.planning.desk import MakeRequest
@@ -20,6 +26,8 @@ from rover_decision.recovery import SafePoses
 from rover_decision.rocks import RockMemory, Target
 
 ON_ONE_SPOT = 25.0  # [s] of turning and looking; no more than two full turns are of use
+BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where there was no way on
+SAME_STOP, SAME_STOP_SECONDS = 1.0, 15.0  # [m] [s] within which a second stop is the same one
 SEARCH_PERIOD = 0.2  # [s] between two looks at what was searched
 
 
@@ -38,6 +46,7 @@ class Memory:
         self._sample_count = self.samples_total
         self.progress = ProgressMonitor(config.stuck_seconds)
         self.travel = ProgressMonitor(ON_ONE_SPOT, turns_count=False)
+        self.held = HeldMonitor()
         self.circle = CircleMonitor()
         self.odometer = Odometer()
         self.rocks = RockMemory(config.retry_after)
@@ -46,6 +55,7 @@ class Memory:
         self.crumbs = Crumbs()
         self.blocked: tuple[Blocked, ...] = ()
         self.recoveries = 0
+        self._last_stop: tuple[float, Pose] | None = None  # [s] and where
         self._searched = SearchedGround()
         self._searched_at = -math.inf  # [s]
         self._explored = 0.0
@@ -82,6 +92,19 @@ class Memory:
         x = pose.x + ahead * math.cos(pose.yaw)
         y = pose.y + ahead * math.sin(pose.yaw)
         self.blocked = (*self.blocked, Blocked(x, y, radius, until))
+
+    def block_for_a_while(self, time: float, pose: Pose) -> None:
+        """There was no way on at a pose, at a time [s]."""
+        self.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, time + BLOCK_SECONDS)
+
+    def stopped(self, time: float, pose: Pose) -> None:
+        """No way ahead. When it is so again here, what is in the way is not on the map."""
+        if self._last_stop is not None:
+            before, place = self._last_stop
+            apart = math.hypot(pose.x - place.x, pose.y - place.y)
+            if time - before < SAME_STOP_SECONDS and apart < SAME_STOP:
+                self.block_for_a_while(time, pose)
+        self._last_stop = (time, pose)
 
     def second_look(self, snapshot: Snapshot) -> bool:
         """Before it is all over: forget what was given up, if that can bring samples or ground.
@@ -135,6 +158,7 @@ class Memory:
             rocks=rocks,
             blocked=self.blocked,
             visited=self.goals.visited(time),
+            doubtful=self.goals.doubtful(time),
             searched=self._searched.so_far(),
             search=not collected and self._search_seconds < self._search_limit,
             last_goal=self.goals.last,

@@ -6,8 +6,8 @@ import math
 
 from rover_common.dataflow import SAFE_COMMAND, Command
 from rover_common.geometry import Pose
-from rover_decision import behaviours, recovery
-from rover_decision.behaviours import looks_at_goal, wanted_bearing
+from rover_decision import behaviours, motion, recovery
+from rover_decision.behaviours import WAY_AHEAD, looks_at_goal, wanted_bearing
 from rover_decision.config import DecisionConfig
 from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.explore import WALL_FOLLOWERS
@@ -20,7 +20,6 @@ from rover_decision.terrain import Terrain
 
 PICKUP_START_SECONDS = 4.0  # [s] for a pickup to show in the telemetry after it was asked for
 CIRCLE_SECONDS = 10.0  # [s] of following the mean bearing
-WAY_AHEAD = math.radians(12.0)  # a way this near to straight ahead can be driven into
 STOP_SECONDS = 8.0  # [s] of looking for a way, after which the rover counts as stuck
 RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
 GAP_SECONDS = 1.0  # [s] between two frames: the rover drove blindly
@@ -29,7 +28,6 @@ PLANS_WITHOUT_GOAL = 12  # in a row, while looking around: nothing is left
 PLANS_UNPLACED = 20  # in a row: turning on the spot does not bring ground to plan on
 HOME_RESERVE = 1.3  # of the time estimated for the way home
 HOME_EXTRA = 30.0  # [s]
-BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where it got stuck
 TILT_AHEAD, TILT_RADIUS = 0.6, 0.5  # [m] where it tilted, for good
 MOVING_STATES = (
     State.FORWARD, State.STOP, State.CIRCLE, State.ROCK_APPROACH, State.RETURN_HOME,
@@ -126,6 +124,7 @@ class Mission:
         command, reason = self._act(snapshot, terrain, target, self._memory)
         driving = self.state is State.FORWARD and abs(snapshot.vehicle.speed) > 0.3
         self._memory.circle.update(snapshot.time, command.steering_angle, driving)
+        self._memory.held.update(snapshot.time, snapshot.vehicle.pose, command)
         return Decision(command, self.state, reason, self._memory.report(snapshot))
 
     def _what_happened(
@@ -175,7 +174,7 @@ class Mission:
                 return Event.lost
         if self.state is State.STOP and since > STOP_SECONDS:
             return Event.stopped_moving
-        if memory.progress.stuck() or memory.travel.stuck():
+        if memory.held.held(snapshot.time) or memory.progress.stuck() or memory.travel.stuck():
             return Event.stopped_moving
         if self.state is State.FORWARD and memory.goals.unplaced >= PLANS_UNPLACED:
             return Event.stopped_moving
@@ -211,7 +210,8 @@ class Mission:
         if self.state in (State.FORWARD, State.CIRCLE):
             wanted = wanted_bearing(snapshot, self._config)
             turning = abs(wanted) > math.radians(40.0) or looks_at_goal(snapshot, self._config)
-            blocked = terrain.clearance(wanted / 2) < self._config.stop_clearance
+            needed = self._config.stop_clearance + motion.braking_distance(snapshot.vehicle.speed)
+            blocked = terrain.clearance(wanted / 2) < needed
             return Event.blocked if blocked and not turning else None
         return Event.cleared if self._cleared(snapshot, terrain, since) else None
 
@@ -224,9 +224,8 @@ class Mission:
         if snapshot.plan.goal is None:
             return since > 1.0  # FORWARD looks around
         wanted = wanted_bearing(snapshot, self._config)
-        return since > 0.5 and abs(wanted) < WAY_AHEAD and (
-            terrain.clearance(wanted) > 1.2 * self._config.stop_clearance
-        )  # fmt: skip
+        aligned = since > 0.5 and abs(wanted) < WAY_AHEAD
+        return aligned and behaviours.has_room(terrain, wanted, self._config)
 
     def _finished(self, snapshot: Snapshot, memory: Memory) -> bool:
         plan, follows_walls = snapshot.plan, self._config.explorer in WALL_FOLLOWERS
@@ -248,17 +247,19 @@ class Mission:
         self._entered = snapshot.time
         self._pickup_seen = False
         memory.progress.restart()
+        memory.held.restart(snapshot.time)
         if {before, self.state} - EXPLORING_STATES:  # between those it may go to and fro for ever
             memory.travel.restart()
         pose = snapshot.vehicle.pose
         match self.state:
             case State.STOP:
                 self._side = terrain.roomier_side()
+                memory.stopped(snapshot.time, pose)
             case State.STUCK:
                 memory.recoveries += 1
                 memory.goals.await_plans()
                 self._ladder.climb(pose, terrain.roomier_side())
-                memory.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, snapshot.time + BLOCK_SECONDS)
+                memory.block_for_a_while(snapshot.time, pose)
             case State.TILT:
                 memory.recoveries += 1
                 self._safe_pose = memory.safe_poses.target(pose)

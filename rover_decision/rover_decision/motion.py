@@ -7,10 +7,11 @@ import math
 from rover_common.dataflow import Command
 from rover_common.vehicle import MAX_SPEED, MAX_STEERING, TURN_IN_PLACE_BELOW, WHEELBASE
 
-THROTTLE_PER_SPEED = 1.5  # [s/m] throttle per missing speed
+THROTTLE_PER_SPEED = 3.0  # [s/m] throttle per missing speed
 BRAKE_PER_SPEED = 1.0  # [s/m] brake per excess speed
 SPEED_SLACK = 0.25  # [m/s] of excess without the brake: coasting sheds it gently
-COMFORT_DECELERATION = 1.8  # [m/s^2]; full brake gives 2.5
+FULL_BRAKE = 2.5  # [m/s^2]
+COMFORT_DECELERATION = 1.8  # [m/s^2]
 STEERING_PER_BEARING = 0.8
 TURN_TOLERANCE = math.radians(4.0)
 # The front wheels turn by 15 degrees at rest and by 5 at full speed; the yaw rate is this share of
@@ -67,6 +68,11 @@ def stop() -> Command:
 def approach_speed(distance: float) -> float:
     """The speed [m/s] from which the rover still stops comfortably within `distance` [m]."""
     return math.sqrt(max(0.0, 2.0 * COMFORT_DECELERATION * distance))
+
+
+def braking_distance(speed: float) -> float:
+    """[m] that the rover needs to stop from a speed [m/s] with its full brake."""
+    return speed * speed / (2.0 * FULL_BRAKE)
 
 
 def _clip(steering: float) -> float:

@@ -7,13 +7,17 @@ from collections import deque
 
 import numpy as np
 
-from rover_common.dataflow import FreeScan
+from rover_common.dataflow import Command, FreeScan
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.grid import GridGeometry
 from rover_decision.planning.dataflow import Searched
 
 PROGRESS_DISTANCE = 0.5  # [m]
 PROGRESS_TURN = math.radians(30.0)
+# From a stand, the least throttle that is ever given moves the rover by 0.3 m in this time, and a
+# turn on the spot by 90 degrees.
+HELD_SECONDS = 2.0  # [s]
+HELD_DISTANCE, HELD_TURN = 0.05, math.radians(2.0)  # [m] [rad]
 CIRCLE_STEERING = math.radians(8.0)  # [rad] to one side all the time
 CIRCLE_SECONDS = 10.0  # [s]
 SEARCH_RANGE = 6.0  # [m] a rock beyond is rarely seen
@@ -47,6 +51,28 @@ class ProgressMonitor:
         """Forget the past: what follows is a new attempt."""
         while len(self._trail) > 1:
             self._trail.popleft()
+
+
+class HeldMonitor:
+    """Whether something holds the rover: it is told to move, and does not move at all."""
+
+    def __init__(self) -> None:
+        self._pose: Pose | None = None
+        self._since = 0.0
+
+    def update(self, time: float, pose: Pose, command: Command) -> None:
+        """With the command given at this pose."""
+        turns = command.steering_angle != 0.0 and command.brake == 0.0
+        told = command.throttle != 0.0 or turns
+        if not told or self._pose is None or _moved(pose, self._pose, HELD_TURN, HELD_DISTANCE):
+            self._pose, self._since = pose, time
+
+    def held(self, time: float) -> bool:
+        return self._pose is not None and time - self._since > HELD_SECONDS
+
+    def restart(self, time: float) -> None:
+        """Forget the past: what follows is a new attempt."""
+        self._pose, self._since = None, time
 
 
 class CircleMonitor:
@@ -108,6 +134,6 @@ class SearchedGround:
         return Searched(self._geometry, self._distance.copy())
 
 
-def _moved(a: Pose, b: Pose, least_turn: float) -> bool:
+def _moved(a: Pose, b: Pose, least_turn: float, least_distance: float = PROGRESS_DISTANCE) -> bool:
     turn = abs(wrap_angle(a.yaw - b.yaw))
-    return math.hypot(a.x - b.x, a.y - b.y) > PROGRESS_DISTANCE or turn > least_turn
+    return math.hypot(a.x - b.x, a.y - b.y) > least_distance or turn > least_turn

@@ -12,10 +12,10 @@ from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
 from rover_decision.follower import follow
-from rover_decision.goals import LINGER, GoalMemory
+from rover_decision.goals import FORGET, LINGER, GoalMemory
 from rover_decision.memory import ON_ONE_SPOT, Memory
 from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
-from rover_decision.observers import CircleMonitor, ProgressMonitor
+from rover_decision.observers import HELD_SECONDS, CircleMonitor, ProgressMonitor
 from rover_decision.planning.dataflow import Goal, GoalKind, Way
 from rover_decision.recovery import LADDER
 from rover_decision.rocks import MOST_TRIES
@@ -83,6 +83,54 @@ def test_an_obstacle_on_the_way_stops_it_until_there_is_another_way():
     assert mission.tick(snapshot(2.0, turned, plan=aside)).state is State.FORWARD
 
 
+def test_the_faster_it_drives_the_more_room_it_needs():
+    def state(ahead: float, speed: float) -> State:
+        mission = Mission(CONFIG)
+        mission.tick(snapshot(1.0))
+        return mission.tick(snapshot(1.1, ahead=ahead, speed=speed, plan=PLAN)).state
+
+    assert state(1.2, speed=0.4) is State.FORWARD
+    assert state(1.2, speed=2.0) is State.STOP
+    assert state(3.0, speed=2.0) is State.FORWARD
+
+
+def test_too_near_to_an_obstacle_for_the_way_it_backs_up_and_goes_on():
+    mission = Mission(CONFIG)
+    mission.tick(snapshot(1.0))
+    for time in np.arange(1.1, 3.0, 0.1):
+        near = mission.tick(snapshot(time, ahead=0.8, plan=PLAN))
+    assert near.state is State.STOP
+    assert near.command.throttle < 0
+    away = mission.tick(snapshot(3.0, pose=Pose(99.6, 100.0, 0.0), ahead=1.2, plan=PLAN))
+    assert away.state is State.FORWARD
+    assert away.command.throttle > 0
+
+
+def test_where_it_stops_again_and_again_the_way_is_blocked():
+    mission = Mission(CONFIG)
+    mission.tick(snapshot(1.0))
+    time, stops = 1.0, 0
+    while stops < 2:
+        for ahead in (0.8, 1.2):  # it backs up and sets out again
+            before = mission.state
+            for _ in range(8):
+                time += 0.1
+                mission.tick(snapshot(time, ahead=ahead, plan=PLAN))
+            stops += mission.state is State.STOP and before is not State.STOP
+        assert len(mission.memory.blocked) == max(0, stops - 1)
+    (place,) = mission.memory.blocked
+    assert place.x > MIDDLE.x
+    assert math.isfinite(place.until)
+
+
+def test_a_rover_that_is_held_is_stuck_soon_and_one_that_waits_is_not():
+    mission = Mission(CONFIG)
+    waiting = [mission.tick(snapshot(1.0 + 0.1 * step)).state for step in range(25)]
+    assert State.STUCK not in waiting  # for the first plan, with the brake on
+    driving = [mission.tick(snapshot(3.5 + 0.1 * step, plan=PLAN)).state for step in range(30)]
+    assert driving.index(State.STUCK) == pytest.approx(10 * HELD_SECONDS, abs=2)
+
+
 def test_a_rock_is_approached_and_picked_up_only_when_standing():
     mission = Mission(CONFIG)
     rocks = (rock(103.0, 100.0),)
@@ -113,10 +161,13 @@ def test_a_rock_out_of_reach_is_given_up_tried_again_and_then_left():
 
 def test_no_progress_is_stuck_and_leads_to_backing_up_and_in_the_end_home():
     mission = Mission(CONFIG)
-    decisions = [mission.tick(snapshot(1.0 + 0.1 * step, plan=PLAN)) for step in range(1500)]
+    decisions, blocked = [], False
+    for step in range(1500):
+        decisions.append(mission.tick(snapshot(1.0 + 0.1 * step, plan=PLAN)))
+        blocked |= len(mission.memory.blocked) > 0
     stuck = [decision for decision in decisions if decision.state is State.STUCK]
     assert stuck[0].command.throttle < 0
-    assert mission.memory.blocked
+    assert blocked
     last = decisions[-1]
     assert last.progress.recoveries > len(LADDER)
     assert any("home" in decision.reason for decision in decisions) or last.state is State.DONE
@@ -210,7 +261,7 @@ def test_when_nothing_is_left_it_goes_home_and_stays():
         empty = straight_plan(pose=far, stamp=1 + index, goal=False)
         turned = mission.tick(snapshot(13.0 + 0.1 * index, far, sample_count=0, plan=empty))
     assert turned.state is State.RETURN_HOME
-    near = Pose(101.5, 100.0, math.pi)
+    near = Pose(101.2, 100.0, math.pi)
     mission.tick(snapshot(14.0, far, sample_count=0, plan=empty))
     for step in range(25):  # no jumps
         pose = Pose(123.6 - 0.9 * step, 100.0, math.pi)
@@ -257,7 +308,7 @@ def test_after_a_long_pause_it_goes_on_as_before():
     for time in np.arange(1.1, 60.0, 0.5):
         assert mission.tick(snapshot(time, plan=PLAN)).state is State.PAUSED
     mission.resume()
-    states = {mission.tick(snapshot(60.0 + 0.1 * i, plan=PLAN)).state for i in range(20)}
+    states = {mission.tick(snapshot(60.0 + 0.1 * i, plan=PLAN)).state for i in range(19)}
     assert states == {State.FORWARD}
 
 
@@ -301,6 +352,25 @@ def test_what_was_looked_at_in_vain_is_left_alone_and_the_more_of_it_the_farther
     near, far = settled(2.0), settled(8.0)
     assert near[:, :2].tolist() == [[MIDDLE.x + 2.0, MIDDLE.y]]
     assert far[0, 2] > 1.5 * near[0, 2] > 1.0
+
+
+def test_only_what_is_in_view_has_been_looked_at():
+    goals = GoalMemory()
+    way = straight_plan(length=1.0)
+    aside = Goal(GoalKind.FRONTIER, MIDDLE.x, MIDDLE.y + 2.0)
+    times = np.arange(0.0, 2 * LINGER, 0.1)
+    for time in times:
+        goals.update(float(time), MIDDLE, dataclasses.replace(way, goal=aside))
+    assert len(goals.visited(float(times[-1]))) == 0
+    facing = Pose(MIDDLE.x, MIDDLE.y, math.pi / 2)
+    for time in times + 2 * LINGER:
+        goals.update(float(time), facing, dataclasses.replace(way, goal=aside))
+    settled = 4 * LINGER
+    assert len(goals.visited(settled)) == 1
+    assert len(goals.doubtful(settled)) == 0
+    later = settled + FORGET
+    assert len(goals.visited(later)) == 0
+    assert len(goals.doubtful(later)) == 1
 
 
 def test_time_that_falls_back_starts_anew():

@@ -58,8 +58,8 @@ OPEN_EAST = opened(HALL, 40, 16, 41, 24)  # a door in the east wall
 def request(map_: GridMap, **changes) -> PlanRequest:
     fields = {
         "stamp": 7, "grid": map_, "pose": HERE, "home": (12.0, 20.0), "trail": NOWHERE,
-        "rocks": (), "blocked": (), "visited": NOT_VISITED, "searched": None, "search": False,
-        "last_goal": None,
+        "rocks": (), "blocked": (), "visited": NOT_VISITED, "doubtful": NOT_VISITED,
+        "searched": None, "search": False, "last_goal": None,
     }  # fmt: skip
     return PlanRequest(**(fields | changes))
 
@@ -93,6 +93,39 @@ def test_a_border_too_short_for_a_way_on_is_no_goal():
 def test_places_visited_in_vain_are_no_goals():
     made = plan(OPEN_EAST, visited=np.array([[39.9, y, 1.5] for y in np.arange(16, 25)]))
     assert made.goal is None
+
+
+def test_what_was_in_vain_before_is_tried_again_only_where_that_costs_little():
+    before = np.array([[40.0, 20.0, 2.0]])
+    near, far = Pose(36.0, 20.0, 0.0), Pose(14.0, 20.0, 0.0)
+    for pose, tried in ((near, True), (far, False)):
+        home = (pose.x, pose.y)
+        made = plan(OPEN_EAST, doubtful=before, pose=pose, home=home)
+        assert (made.goal is not None) is tried
+        assert plan(OPEN_EAST, pose=pose, home=home).goal is not None
+
+
+def test_many_small_patches_do_not_keep_a_large_one_from_being_looked_at():
+    patches = HALL
+    for x in np.arange(13.0, 26.0, 3.0):  # each takes more time to stop at than it is worth
+        patches = opened(patches, x, 16, x + 1.0, 17)
+    assert plan(patches).goal is None
+    large = plan(opened(patches, 30, 18, 36, 22))
+    assert large.goal is not None
+    assert large.goal.x > 29.0
+
+
+def test_the_hidden_side_of_an_obstacle_is_kept_away_from():
+    rock_seen = opened(HALL, 30, 19.75, 30.5, 20.25, 100)
+    with_shadow = opened(rock_seen, 30.5, 19.75, 32.5, 20.25)
+
+    def room(map_: GridMap, x: float) -> float:
+        costmap = Costmap.of(map_, NOWHERE, (12.0, 20.0))
+        return float(costmap.clearance[costmap.geometry.cell_of(x, 20.0)])
+
+    assert room(with_shadow, 31.25) == 0.0  # within a metre of the rock: it may be the rock
+    assert room(with_shadow, 32.25) > 0.5
+    assert room(rock_seen, 31.25) > 0.5
 
 
 def with_edge(x0: float, x1: float) -> GridMap:

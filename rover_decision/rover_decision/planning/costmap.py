@@ -15,6 +15,9 @@ from rover_common.scoring import FREE_BELOW
 
 MARGIN = 12  # [cells] kept around what is known
 TRAIL_RADIUS = 0.5  # [m] around where the rover has been: free, it was there
+# [m] Unknown ground this near to an obstacle is kept away from like one: mostly it is the far side
+# of the rock, or the wall around the corner.
+HIDDEN_SIDE = 1.0
 BODY_RADIUS = 1.2  # [m] around the rover, where its camera cannot see: taken as free when unknown
 
 
@@ -36,7 +39,8 @@ class Costmap:
     free: NDArray[np.bool_]
     unknown: NDArray[np.bool_]  # edges seen from afar as well
     edge: NDArray[np.bool_]
-    clearance: NDArray[np.float32]  # [m] from a cell's centre to the nearest obstacle's edge
+    # [m] from a cell's centre to the edge of the nearest obstacle, or of what it may hide
+    clearance: NDArray[np.float32]
 
     @classmethod
     def of(
@@ -59,7 +63,8 @@ class Costmap:
             disc = _discs(geometry, np.array([[place.x, place.y]]), place.radius)
             obstacle |= disc
             unknown &= ~disc
-        clearance = cv2.distanceTransform((~obstacle).astype(np.uint8), cv2.DIST_L2, 5)
+        clear = ~obstacle & ~(_grown(obstacle, HIDDEN_SIDE / geometry.resolution) & unknown)
+        clearance = cv2.distanceTransform(clear.astype(np.uint8), cv2.DIST_L2, 5)
         metres = np.asarray(clearance, np.float32) * geometry.resolution
         clearance = np.maximum(0.0, metres - geometry.resolution / 2)
         return cls(geometry, ~obstacle & ~unknown, unknown, edge & unknown, clearance)
@@ -87,6 +92,13 @@ def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArr
 def _geometry(resolution: float, shape: tuple[int, ...], x: float, y: float) -> GridGeometry:
     rows, cols = shape
     return GridGeometry(resolution, rows, cols, x, y)
+
+
+def _grown(mask: NDArray[np.bool_], cells: float) -> NDArray[np.bool_]:
+    """The mask with all that lies within so many cells of it."""
+    size = 2 * round(cells) + 1
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), disc) > 0)
 
 
 def _discs(geometry: GridGeometry, points: NDArray[np.float64], radius: float) -> NDArray[np.bool_]:

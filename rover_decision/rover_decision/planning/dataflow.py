@@ -64,6 +64,7 @@ class PlanRequest:
     rocks: tuple[Rock, ...]  # worth going for now
     blocked: tuple[Blocked, ...]
     visited: NDArray[np.float64]  # (n, 3) [m] x, y, radius of what was looked at in vain
+    doubtful: NDArray[np.float64]  # (n, 3) [m] the same, so long ago that it may be tried again
     searched: Searched | None
     search: bool  # whether samples are left: rocks that nobody has seen, when none is in reach
     last_goal: Goal | None

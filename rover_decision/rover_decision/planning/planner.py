@@ -37,8 +37,9 @@ SHARP = math.radians(60.0)  # a turn that is made on the spot
 SEARCH_DISTANCES = (5.0, 3.0)
 # What little ground a frontier may hide is worth this detour: a canyon's ground takes about a
 # quarter of it.
-SECONDS_PER_AREA = 1.0  # [s/m^2]
+SECONDS_PER_AREA = 1.5  # [s/m^2]
 STOP_SECONDS = 3.0  # to brake, turn and gather speed again, which the ways do not count
+DOUBTFUL_SECONDS = 8.0  # [s] of detour to look again at what was looked at in vain
 MOST_SMALL = 4  # stops of limited worth that are considered
 UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 
@@ -112,11 +113,14 @@ class Planner:
             nearest = int(np.argmin(cost))
             x, y = float(frontier.x[nearest]), float(frontier.y[nearest])
             worth = SECONDS_PER_AREA * frontier.hides - STOP_SECONDS
+            if near_visited(frontier.x, frontier.y, request.doubtful).any():
+                worth = min(worth, DOUBTFUL_SECONDS)
             found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest]), worth))
         found = [stop for stop in found if stop.node >= 0 and np.isfinite(seconds[stop.node])]
-        found = sorted(found, key=lambda stop: float(seconds[stop.node]))
-        small = [stop for stop in found if math.isfinite(stop.worth)][:MOST_SMALL]
         large = [stop for stop in found if math.isinf(stop.worth)]
+        large = sorted(large, key=lambda stop: float(seconds[stop.node]))
+        small = [stop for stop in found if 0.0 < stop.worth < math.inf]
+        small = sorted(small, key=lambda stop: float(seconds[stop.node]) - stop.worth)[:MOST_SMALL]
         return large[: MOST_STOPS - len(small)] + small
 
     def _choose(

@@ -14,7 +14,7 @@ from rover_decision.planning.dataflow import Way
 NEEDED_ROOM = 0.5  # [m] beside a way
 SMOOTHING = (0.5, 2.5)  # [m] least and most
 WINDOW = 10  # points to either side that count
-SPEED_PER_CLEARANCE = 1.6  # [1/s] of a way's speed limit
+SPEED_PER_CLEARANCE = 2.2  # [1/s] of a way's speed limit
 SLOWEST = 0.8  # [m/s] limit in the narrowest place
 
 
