@@ -15,6 +15,7 @@ SPACING = 0.5  # [m] between crumbs
 BESIDE = 1.0  # [m] crumbs this near to each other are linked in any case
 ACROSS = 6.0  # [m] and up to here where the map shows free ground between them
 ROOM = 0.6  # [m] from obstacles, of a link across
+BLOCKED_COST = 10.0  # times its length, for a step through a place where the rover got stuck since
 SAMPLES = 13  # points on which a link across is tried: one for each half metre
 
 
@@ -56,6 +57,8 @@ def way_over_crumbs(
     jumps = np.flatnonzero(np.linalg.norm(np.diff(crumbs, axis=0), axis=1) > ACROSS)
     first, second = np.append(first, jumps), np.append(second, jumps + 1)
     cost = np.linalg.norm(crumbs[first] - crumbs[second], axis=1)
+    blocked = ~costmap.free[costmap.nearest_cell(crumbs[:, 0], crumbs[:, 1])]
+    cost[blocked[first] | blocked[second]] *= BLOCKED_COST
     graph = csr_array((cost, (first, second)), shape=(len(crumbs), len(crumbs)))
     _, previous = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
     index = int(tree.query(position)[1])
@@ -71,10 +74,8 @@ def _clear(
     """Whether the straight lines between points (n, 2) [m] have room on the map."""
     share = np.linspace(0.0, 1.0, SAMPLES)[:, None, None]
     points = starts + share * (ends - starts)
-    row, col = costmap.geometry.cell_of(points[..., 0], points[..., 1])
-    row = np.clip(row, 0, costmap.geometry.rows - 1)
-    col = np.clip(col, 0, costmap.geometry.cols - 1)
-    room = costmap.free[row, col] & (costmap.clearance[row, col] >= ROOM)
+    cell = costmap.nearest_cell(points[..., 0], points[..., 1])
+    room = costmap.free[cell] & (costmap.clearance[cell] >= ROOM)
     return np.asarray(room.all(axis=0))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,18 +18,29 @@ LINGER = 1.0  # [s] of looking at a goal, after which what there was to see has 
 FACING = math.radians(40.0)  # [rad] a goal further aside is not looked at: the camera sees 54
 UNDERFOOT = 1.0  # [m] the camera sees no ground nearer than this, wherever it looks
 OUT_OF_REACH = 60.0  # [s] on the way to one goal
-FORGET = 150.0  # [s] after which a goal may be tried again
+FORGET = 150.0  # [s] after which a goal may be tried again that was seen from near
+RETRY = 40.0  # [s] the same, of one that was not
 SAME = 4.0  # [m] between two plans' goals
 # What a look in vain has settled: a disc around what was looked at, the wider the farther off.
 LEAST_RADIUS = 1.5  # [m]
+FROM_AFAR = 4.0  # [m] what was looked at from farther off may still be a way on
 RADIUS_PER_DISTANCE = 0.4
+
+
+@dataclass(frozen=True)
+class _Visited:
+    x: float  # [m]
+    y: float  # [m]
+    radius: float  # [m]
+    until: float  # [s] to be left alone
+    surely: bool  # there was nothing to be seen from near
 
 
 class GoalMemory:
     """Watches the goals of the plans."""
 
     def __init__(self) -> None:
-        self._visited: list[tuple[float, float, float, float]] = []  # x, y, radius [m], until [s]
+        self._visited: list[_Visited] = []
         self._goal: Goal | None = None
         self._since = 0.0  # [s] when the goal was set
         self._near_since: float | None = None  # [s]
@@ -63,7 +75,9 @@ class GoalMemory:
         if lingered or time - self._since > OUT_OF_REACH:
             distance = math.hypot(goal.x - pose.x, goal.y - pose.y) if lingered else 0.0
             radius = max(LEAST_RADIUS, RADIUS_PER_DISTANCE * distance)
-            self._visited.append((goal.x, goal.y, radius, time + FORGET))
+            surely = lingered and distance < FROM_AFAR
+            until = time + (FORGET if surely else RETRY)
+            self._visited.append(_Visited(goal.x, goal.y, radius, until, surely))
             self._since, self._near_since = time, None
 
     def forget_visited(self) -> bool:
@@ -72,21 +86,31 @@ class GoalMemory:
         self._visited.clear()
         return forgot
 
+    def doubt_visited(self, time: float) -> bool:
+        """Take places for unvisited that were not seen surely, and doubt all others from now on.
+
+        Whether there were any.
+        """
+        known = [place for place in self._visited if place.surely]
+        doubted = len(known) < len(self._visited) or any(place.until > time for place in known)
+        self._visited = [replace(place, until=min(place.until, time)) for place in known]
+        return doubted
+
     def await_plans(self) -> None:
         """Things have changed: what the plans said until now does not count."""
         self.missing = self.unplaced = 0
 
     def visited(self, time: float) -> NDArray[np.float64]:
         """Places not to go to now (n, 3): x, y and radius [m]."""
-        return _discs(entry for entry in self._visited if entry[3] > time)
+        return _discs(place for place in self._visited if place.until > time)
 
     def doubtful(self, time: float) -> NDArray[np.float64]:
         """Places that may be tried again (n, 3), but were in vain before: x, y and radius [m]."""
-        return _discs(entry for entry in self._visited if entry[3] <= time)
+        return _discs(place for place in self._visited if place.until <= time)
 
 
-def _discs(entries: Iterable[tuple[float, ...]]) -> NDArray[np.float64]:
-    return np.array([entry[:3] for entry in entries], float).reshape(-1, 3)
+def _discs(places: Iterable[_Visited]) -> NDArray[np.float64]:
+    return np.array([(place.x, place.y, place.radius) for place in places], float).reshape(-1, 3)
 
 
 def _in_view(goal: Goal, pose: Pose) -> bool:

@@ -14,6 +14,7 @@ from rover_decision.planning.dataflow import NO_WAY, Plan, Way
 BREADCRUMBS, SHORTEST_PATH, BEARING = METHODS = ("breadcrumbs", "shortest_path", "bearing")
 PATIENCE = 20.0  # [s] within which a way must have brought the rover nearer
 NEARER = 3.0  # [m]
+MOST_TROUBLES = 2  # times that the rover gets stuck on one way
 
 
 class WayHome:
@@ -22,6 +23,7 @@ class WayHome:
     def __init__(self, preferred: str) -> None:
         self._turn = METHODS.index(preferred)
         self._best, self._since = math.inf, 0.0
+        self._troubles = 0
 
     @property
     def method(self) -> str:
@@ -30,6 +32,12 @@ class WayHome:
     def begin(self, time: float) -> None:
         """Set out, or go on after an interruption: the clock starts anew."""
         self._best, self._since = math.inf, time
+
+    def trouble(self) -> None:
+        """The rover got stuck on the way in force, which is left when that happens again."""
+        self._troubles += 1
+        if self._troubles >= MOST_TROUBLES:
+            self._next()
 
     def update(self, time: float, pose: Pose, home: tuple[float, float], plan: Plan | None) -> Way:
         """The way to follow now; empty when there is none, as for the bearing."""
@@ -40,9 +48,13 @@ class WayHome:
         if left < self._best - NEARER:
             self._best, self._since = left, time
         if time - self._since > PATIENCE:
-            self._turn += 1
+            self._next()
             self.begin(time)
         return way
+
+    def _next(self) -> None:
+        self._turn += 1
+        self._troubles = 0
 
 
 def bearing_home(nav: PolarArray, pose: Pose, home: tuple[float, float]) -> float | None:

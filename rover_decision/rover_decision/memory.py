@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from functools import partial
 
 from rover_common.dataflow import GridMap
@@ -27,7 +28,8 @@ from rover_decision.rocks import RockMemory, Target
 
 ON_ONE_SPOT = 25.0  # [s] of turning and looking; no more than two full turns are of use
 BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where there was no way on
-SAME_STOP, SAME_STOP_SECONDS = 1.0, 15.0  # [m] [s] within which a second stop is the same one
+STOPS_HERE = 3  # of them mean that what is in the way is not on the map
+SAME_STOP, SAME_STOP_SECONDS = 1.0, 15.0  # [m] [s] within which they are
 SEARCH_PERIOD = 0.2  # [s] between two looks at what was searched
 
 
@@ -55,7 +57,7 @@ class Memory:
         self.crumbs = Crumbs()
         self.blocked: tuple[Blocked, ...] = ()
         self.recoveries = 0
-        self._last_stop: tuple[float, Pose] | None = None  # [s] and where
+        self._stops: deque[tuple[float, Pose]] = deque(maxlen=STOPS_HERE)  # [s] and where
         self._searched = SearchedGround()
         self._searched_at = -math.inf  # [s]
         self._explored = 0.0
@@ -98,16 +100,18 @@ class Memory:
         self.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, time + BLOCK_SECONDS)
 
     def stopped(self, time: float, pose: Pose) -> None:
-        """No way ahead. When it is so again here, what is in the way is not on the map."""
-        if self._last_stop is not None:
-            before, place = self._last_stop
-            apart = math.hypot(pose.x - place.x, pose.y - place.y)
-            if time - before < SAME_STOP_SECONDS and apart < SAME_STOP:
-                self.block_for_a_while(time, pose)
-        self._last_stop = (time, pose)
+        """No way ahead. When it is so here again and again, the place counts as blocked."""
+        self._stops.append((time, pose))
+        near = [
+            time - before < SAME_STOP_SECONDS
+            and math.hypot(pose.x - place.x, pose.y - place.y) < SAME_STOP
+            for before, place in self._stops
+        ]
+        if len(near) == STOPS_HERE and all(near):
+            self.block_for_a_while(time, pose)
 
     def second_look(self, snapshot: Snapshot) -> bool:
-        """Before it is all over: forget what was given up, if that can bring samples or ground.
+        """Before it is all over: doubt what was given up; while samples are missing, forget it.
 
         Whether there is anything to be tried once more; only once in a mission, so that it ends.
         """
@@ -117,7 +121,10 @@ class Memory:
         standing = [place for place in self.blocked if not math.isfinite(place.until)]
         unblocked = len(standing) < len(self.blocked)
         self.blocked = tuple(standing)
-        unvisited = not self.all_collected(snapshot) and self.goals.forget_visited()
+        if self.all_collected(snapshot):
+            unvisited = self.goals.doubt_visited(snapshot.time)
+        else:
+            unvisited = self.goals.forget_visited()
         self.goals.await_plans()
         return unblocked or unvisited
 

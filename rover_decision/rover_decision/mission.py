@@ -256,6 +256,8 @@ class Mission:
                 self._side = terrain.roomier_side()
                 memory.stopped(snapshot.time, pose)
             case State.STUCK:
+                if before is State.RETURN_HOME:
+                    self._home.trouble()
                 memory.recoveries += 1
                 memory.goals.await_plans()
                 self._ladder.climb(pose, terrain.roomier_side())

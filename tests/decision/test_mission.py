@@ -13,7 +13,8 @@ from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
 from rover_decision.follower import follow
 from rover_decision.goals import FORGET, LINGER, GoalMemory
-from rover_decision.memory import ON_ONE_SPOT, Memory
+from rover_decision.home import WayHome
+from rover_decision.memory import ON_ONE_SPOT, STOPS_HERE, Memory
 from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
 from rover_decision.observers import HELD_SECONDS, CircleMonitor, ProgressMonitor
 from rover_decision.planning.dataflow import Goal, GoalKind, Way
@@ -110,14 +111,14 @@ def test_where_it_stops_again_and_again_the_way_is_blocked():
     mission = Mission(CONFIG)
     mission.tick(snapshot(1.0))
     time, stops = 1.0, 0
-    while stops < 2:
+    while stops < STOPS_HERE:
         for ahead in (0.8, 1.2):  # it backs up and sets out again
             before = mission.state
             for _ in range(8):
                 time += 0.1
                 mission.tick(snapshot(time, ahead=ahead, plan=PLAN))
             stops += mission.state is State.STOP and before is not State.STOP
-        assert len(mission.memory.blocked) == max(0, stops - 1)
+        assert len(mission.memory.blocked) == (stops == STOPS_HERE)
     (place,) = mission.memory.blocked
     assert place.x > MIDDLE.x
     assert math.isfinite(place.until)
@@ -371,6 +372,31 @@ def test_only_what_is_in_view_has_been_looked_at():
     later = settled + FORGET
     assert len(goals.visited(later)) == 0
     assert len(goals.doubtful(later)) == 1
+
+
+def test_before_the_end_what_was_seen_from_afar_is_open_again_and_from_near_doubtful():
+    goals = GoalMemory()
+    way = straight_plan(length=1.0)
+    for stamp, distance in ((1, 2.0), (2, 8.0)):
+        goal = Goal(GoalKind.FRONTIER, MIDDLE.x + distance, MIDDLE.y)
+        seen = dataclasses.replace(way, goal=goal, stamp=stamp)
+        for time in np.arange(0.0, LINGER + 0.5, 0.1):
+            goals.update(5.0 * stamp + float(time), MIDDLE, seen)
+    assert len(goals.visited(20.0)) == 2
+    assert goals.doubt_visited(20.0)
+    assert len(goals.visited(20.0)) == 0
+    assert goals.doubtful(20.0)[:, 0].tolist() == [MIDDLE.x + 2.0]
+    assert not goals.doubt_visited(21.0)  # nothing that could be doubted more
+
+
+def test_a_way_home_on_which_the_rover_gets_stuck_again_is_left_for_the_next():
+    home = WayHome("shortest_path")
+    home.begin(0.0)
+    home.trouble()
+    assert home.method == "shortest_path"
+    home.begin(10.0)
+    home.trouble()
+    assert home.method != "shortest_path"
 
 
 def test_time_that_falls_back_starts_anew():

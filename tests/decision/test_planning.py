@@ -119,13 +119,17 @@ def test_the_hidden_side_of_an_obstacle_is_kept_away_from():
     rock_seen = opened(HALL, 30, 19.75, 30.5, 20.25, 100)
     with_shadow = opened(rock_seen, 30.5, 19.75, 32.5, 20.25)
 
-    def room(map_: GridMap, x: float) -> float:
+    def room(map_: GridMap, x: float) -> tuple[float, float]:
         costmap = Costmap.of(map_, NOWHERE, (12.0, 20.0))
-        return float(costmap.clearance[costmap.geometry.cell_of(x, 20.0)])
+        cell = costmap.geometry.cell_of(x, 20.0)
+        return float(costmap.clearance[cell]), float(costmap.room[cell])
 
-    assert room(with_shadow, 31.25) == 0.0  # within a metre of the rock: it may be the rock
-    assert room(with_shadow, 32.25) > 0.5
-    assert room(rock_seen, 31.25) > 0.5
+    assert room(with_shadow, 31.25) == (0.0, 0.0)  # within a metre of the rock: it may be the rock
+    assert min(room(with_shadow, 32.25)) > 0.5
+    assert min(room(rock_seen, 31.25)) > 0.5
+    clearance, care = room(opened(rock_seen, 30.5, 19.75, 32.5, 20.25, EDGE), 31.25)
+    assert clearance > 0.5  # an edge was seen, only not well
+    assert care == 0.0
 
 
 def with_edge(x0: float, x1: float) -> GridMap:
@@ -279,6 +283,29 @@ def test_crumbs_do_not_cut_through_walls():
     way = way_over_crumbs(trail, (13.0, 28.0), Costmap.of(around, trail, (13.0, 28.0)))
     assert np.hypot(*np.diff(way, axis=0).T).sum() > 55
     assert way[:, 0].max() > 35
+
+
+def test_crumbs_lead_around_a_place_where_the_rover_got_stuck():
+    loop = [(20.0, y) for y in np.arange(16, 25)] + [(x, 24.0) for x in np.arange(21, 31)]
+    loop += [(30.0, y) for y in np.arange(23, 16, -1.0)] + [
+        (x, 17.0) for x in np.arange(29, 20, -1)
+    ]
+    trail = np.array(loop, float)
+    here = (28.0, 17.0)
+    free = way_over_crumbs(trail, here, Costmap.of(HALL, trail, here))
+    assert free[:, 1].max() < 18.0
+    stuck = Costmap.of(HALL, trail, here, (Blocked(24.0, 17.0, 1.0),))
+    around = way_over_crumbs(trail, here, stuck)
+    assert np.hypot(*(around - (24.0, 17.0)).T).min() > 1.0
+    assert np.hypot(*(around[-1] - trail[0])) < 0.1
+
+
+def test_a_rock_beside_the_trail_stays_on_the_map():
+    beside = opened(HALL, 30, 20.5, 31, 21.5, 100)
+    trail = np.array([(x, 20.0) for x in np.arange(12, 38, 0.5)])
+    costmap = Costmap.of(beside, trail, (37.0, 20.0))
+    assert not costmap.free[costmap.geometry.cell_of(30.5, 20.6)]
+    assert costmap.free[costmap.geometry.cell_of(30.5, 20.1)]
 
 
 class TestDesk:

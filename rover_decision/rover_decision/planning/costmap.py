@@ -14,9 +14,12 @@ from rover_common.grid import GridGeometry
 from rover_common.scoring import FREE_BELOW
 
 MARGIN = 12  # [cells] kept around what is known
-TRAIL_RADIUS = 0.5  # [m] around where the rover has been: free, it was there
+TRAIL_RADIUS = 0.5  # [m] around where the rover has been: free when unknown, it was there
+# [m] the same, free whatever the map says; no more, because its wheels pass rocks 0.44 m aside
+UNDER_BODY = 0.25
 # [m] Unknown ground this near to an obstacle is kept away from like one: mostly it is the far side
-# of the rock, or the wall around the corner.
+# of the rock, or the wall around the corner. An edge there is only driven by with care: where a
+# passage is narrow, edges seen from afar would close it.
 HIDDEN_SIDE = 1.0
 BODY_RADIUS = 1.2  # [m] around the rover, where its camera cannot see: taken as free when unknown
 
@@ -41,6 +44,7 @@ class Costmap:
     edge: NDArray[np.bool_]
     # [m] from a cell's centre to the edge of the nearest obstacle, or of what it may hide
     clearance: NDArray[np.float32]
+    room: NDArray[np.float32]  # [m] the same, and to the edges beside obstacles
 
     @classmethod
     def of(
@@ -57,17 +61,28 @@ class Costmap:
         unknown = (cells < 0) | edge
         been = _discs(geometry, trail, TRAIL_RADIUS)
         here = _discs(geometry, np.array([body]), BODY_RADIUS) & unknown
-        obstacle &= ~been
+        obstacle &= ~_discs(geometry, trail, UNDER_BODY)
         unknown &= ~(been | here)
         for place in blocked:
             disc = _discs(geometry, np.array([[place.x, place.y]]), place.radius)
             obstacle |= disc
             unknown &= ~disc
-        clear = ~obstacle & ~(_grown(obstacle, HIDDEN_SIDE / geometry.resolution) & unknown)
-        clearance = cv2.distanceTransform(clear.astype(np.uint8), cv2.DIST_L2, 5)
-        metres = np.asarray(clearance, np.float32) * geometry.resolution
-        clearance = np.maximum(0.0, metres - geometry.resolution / 2)
-        return cls(geometry, ~obstacle & ~unknown, unknown, edge & unknown, clearance)
+        beside = _grown(obstacle, HIDDEN_SIDE / geometry.resolution) & unknown
+        return cls(
+            geometry,
+            ~obstacle & ~unknown,
+            unknown,
+            edge & unknown,
+            clearance=_distance(obstacle | (beside & ~edge), geometry.resolution),
+            room=_distance(obstacle | beside, geometry.resolution),
+        )
+
+    def nearest_cell(
+        self, x: NDArray[np.float64], y: NDArray[np.float64]
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Row and column of the cell in which each point [m] lies, of the nearest one outside."""
+        row, col = self.geometry.cell_of(x, y)
+        return np.clip(row, 0, self.geometry.rows - 1), np.clip(col, 0, self.geometry.cols - 1)
 
 
 def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArray[np.int8]]:
@@ -92,6 +107,12 @@ def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArr
 def _geometry(resolution: float, shape: tuple[int, ...], x: float, y: float) -> GridGeometry:
     rows, cols = shape
     return GridGeometry(resolution, rows, cols, x, y)
+
+
+def _distance(mask: NDArray[np.bool_], resolution: float) -> NDArray[np.float32]:
+    """[m] from each cell's centre to the edge of the nearest true cell."""
+    cells = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5)
+    return np.maximum(0.0, np.asarray(cells, np.float32) * resolution - resolution / 2)
 
 
 def _grown(mask: NDArray[np.bool_], cells: float) -> NDArray[np.bool_]:

@@ -15,8 +15,8 @@ from rover_decision.planning.costmap import Costmap
 
 COARSE = 2  # cells of the map per cell of the graph, in both directions
 PADDING = 0.55  # [m] from obstacles: half the rover's width, and what a wheel may stray
-# Speed that a cell can be driven with: by its clearance, between crawling and cruising.
-SPEED_PER_CLEARANCE = 1.5  # [1/s]
+# Speed that a cell can be driven with: by its room, between crawling and cruising.
+SPEED_PER_ROOM = 1.5  # [1/s]
 SLOWEST, FASTEST = 0.5, 2.5  # [m/s]
 
 
@@ -42,7 +42,8 @@ class Roadmap:
         )
         clearance = np.minimum.reduce(_parts(costmap.clearance))
         self.drivable = np.logical_and.reduce(_parts(costmap.free)) & (clearance >= PADDING)
-        pace = 1.0 / np.clip(SPEED_PER_CLEARANCE * clearance, SLOWEST, FASTEST)  # [s/m]
+        room = np.minimum.reduce(_parts(costmap.room))
+        pace = 1.0 / np.clip(SPEED_PER_ROOM * room, SLOWEST, FASTEST)  # [s/m]
         self._numbers = np.full(self.drivable.shape, -1, np.int32)
         self._numbers[self.drivable] = np.arange(np.count_nonzero(self.drivable))
         rows, cols = np.nonzero(self.drivable)

@@ -14,24 +14,24 @@ from rover_decision.planning.dataflow import Way
 NEEDED_ROOM = 0.5  # [m] beside a way
 SMOOTHING = (0.5, 2.5)  # [m] least and most
 WINDOW = 10  # points to either side that count
-SPEED_PER_CLEARANCE = 2.2  # [1/s] of a way's speed limit
+SPEED_PER_ROOM = 2.2  # [1/s] of a way's speed limit
 SLOWEST = 0.8  # [m/s] limit in the narrowest place
 
 
 def drivable_way(points: NDArray[np.float64], costmap: Costmap) -> Way:
     """The way along `points` (n, 2) [m], about half a metre apart."""
-    smooth = _smoothed(points, _clearance(points, costmap))
-    speeds = np.maximum(SLOWEST, SPEED_PER_CLEARANCE * _clearance(smooth, costmap))
+    smooth = _smoothed(points, _room(points, costmap))
+    speeds = np.maximum(SLOWEST, SPEED_PER_ROOM * _room(smooth, costmap))
     return Way(smooth, speeds)
 
 
-def _clearance(points: NDArray[np.float64], costmap: Costmap) -> NDArray[np.float64]:
+def _room(points: NDArray[np.float64], costmap: Costmap) -> NDArray[np.float64]:
     """(n,) [m]"""
     row, col = costmap.geometry.cell_of(points[:, 0], points[:, 1])
-    return costmap.clearance[row, col].astype(np.float64)
+    return costmap.room[row, col].astype(np.float64)
 
 
-def _smoothed(points: NDArray[np.float64], clearance: NDArray[np.float64]) -> NDArray[np.float64]:
+def _smoothed(points: NDArray[np.float64], room: NDArray[np.float64]) -> NDArray[np.float64]:
     """Each point as the weighted mean of its neighbours, over a reach that its room allows."""
     if len(points) < 3:
         return points
@@ -45,6 +45,6 @@ def _smoothed(points: NDArray[np.float64], clearance: NDArray[np.float64]) -> ND
     neighbours = sliding_window_view(points, 2 * WINDOW + 1, axis=0)  # (n, 2, window)
     away = sliding_window_view(along, 2 * WINDOW + 1)
     away = away - away[:, WINDOW : WINDOW + 1]
-    reach = np.clip(clearance - NEEDED_ROOM, *SMOOTHING)[:, None]
+    reach = np.clip(room - NEEDED_ROOM, *SMOOTHING)[:, None]
     weight = np.exp(-0.5 * (away / reach) ** 2)
     return np.asarray((weight[:, None] * neighbours).sum(axis=2) / weight.sum(axis=1)[:, None])
