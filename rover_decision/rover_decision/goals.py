@@ -19,7 +19,7 @@ FACING = math.radians(40.0)  # [rad] a goal further aside is not looked at: the 
 UNDERFOOT = 1.0  # [m] the camera sees no ground nearer than this, wherever it looks
 OUT_OF_REACH = 60.0  # [s] on the way to one goal
 FORGET = 150.0  # [s] after which a goal may be tried again that was seen from near
-RETRY = 40.0  # [s] the same, of one that was not
+RETRY = 20.0  # [s] the same, of one that was looked at from afar for the first time
 SAME = 4.0  # [m] between two plans' goals
 # What a look in vain has settled: a disc around what was looked at, the wider the farther off.
 LEAST_RADIUS = 1.5  # [m]
@@ -33,7 +33,7 @@ class _Visited:
     y: float  # [m]
     radius: float  # [m]
     until: float  # [s] to be left alone
-    surely: bool  # there was nothing to be seen from near
+    surely: bool  # in vain from near, out of reach, or not for the first time
 
 
 class GoalMemory:
@@ -46,7 +46,8 @@ class GoalMemory:
         self._near_since: float | None = None  # [s]
         self._stamp: int | None = None
         self.missing = 0  # plans in a row without a goal
-        self.unplaced = 0  # plans in a row that did not find the rover on the map
+        # plans in a row that did not find the rover on the map, or with neither goal nor way home
+        self.unplaced = 0
 
     @property
     def last(self) -> Goal | None:
@@ -57,8 +58,9 @@ class GoalMemory:
             return
         if plan.stamp != self._stamp:
             self._stamp = plan.stamp
-            self.unplaced = 0 if plan.placed else self.unplaced + 1
-            if plan.placed:
+            enclosed = plan.goal is None and not math.isfinite(plan.home_seconds)
+            self.unplaced = self.unplaced + 1 if enclosed or not plan.placed else 0
+            if not self.unplaced:
                 self.missing = 0 if plan.goal is not None else self.missing + 1
             if not _same(plan.goal, self._goal):
                 self._since, self._near_since = time, None
@@ -75,10 +77,13 @@ class GoalMemory:
         if lingered or time - self._since > OUT_OF_REACH:
             distance = math.hypot(goal.x - pose.x, goal.y - pose.y) if lingered else 0.0
             radius = max(LEAST_RADIUS, RADIUS_PER_DISTANCE * distance)
-            surely = lingered and distance < FROM_AFAR
+            surely = not lingered or distance < FROM_AFAR or self._was_tried(goal)
             until = time + (FORGET if surely else RETRY)
             self._visited.append(_Visited(goal.x, goal.y, radius, until, surely))
             self._since, self._near_since = time, None
+
+    def _was_tried(self, goal: Goal) -> bool:
+        return any(math.hypot(goal.x - p.x, goal.y - p.y) < p.radius for p in self._visited)
 
     def forget_visited(self) -> bool:
         """Take every place for unvisited again; whether there were any."""
@@ -106,7 +111,7 @@ class GoalMemory:
 
     def doubtful(self, time: float) -> NDArray[np.float64]:
         """Places that may be tried again (n, 3), but were in vain before: x, y and radius [m]."""
-        return _discs(place for place in self._visited if place.until <= time)
+        return _discs(place for place in self._visited if place.until <= time and place.surely)
 
 
 def _discs(places: Iterable[_Visited]) -> NDArray[np.float64]:

@@ -27,7 +27,8 @@ from rover_decision.recovery import SafePoses
 from rover_decision.rocks import RockMemory, Target
 
 ON_ONE_SPOT = 25.0  # [s] of turning and looking; no more than two full turns are of use
-BLOCK_AHEAD, BLOCK_RADIUS, BLOCK_SECONDS = 1.0, 0.5, 90.0  # [m] [m] [s] where there was no way on
+BLOCK_AHEAD, BLOCK_RADIUS = 1.0, 0.5  # [m] where there was no way on
+BLOCK_SECONDS, STOP_BLOCK_SECONDS = 90.0, 8.0  # [s] where it got stuck, or stopped in vain
 STOPS_HERE = 3  # of them mean that what is in the way is not on the map
 SAME_STOP, SAME_STOP_SECONDS = 1.0, 15.0  # [m] [s] within which they are
 SEARCH_PERIOD = 0.2  # [s] between two looks at what was searched
@@ -95,9 +96,16 @@ class Memory:
         y = pose.y + ahead * math.sin(pose.yaw)
         self.blocked = (*self.blocked, Blocked(x, y, radius, until))
 
-    def block_for_a_while(self, time: float, pose: Pose) -> None:
-        """There was no way on at a pose, at a time [s]."""
-        self.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, time + BLOCK_SECONDS)
+    def block_ahead(self, time: float, pose: Pose, seconds: float = BLOCK_SECONDS) -> None:
+        """There was no way on at a pose, at a time [s]: for a while."""
+        self.block(pose, BLOCK_AHEAD, BLOCK_RADIUS, time + seconds)
+
+    def unblock(self) -> bool:
+        """Forget what was blocked for a while; whether there was any such place."""
+        standing = tuple(place for place in self.blocked if not math.isfinite(place.until))
+        unblocked = len(standing) < len(self.blocked)
+        self.blocked = standing
+        return unblocked
 
     def stopped(self, time: float, pose: Pose) -> None:
         """No way ahead. When it is so here again and again, the place counts as blocked."""
@@ -108,7 +116,7 @@ class Memory:
             for before, place in self._stops
         ]
         if len(near) == STOPS_HERE and all(near):
-            self.block_for_a_while(time, pose)
+            self.block_ahead(time, pose, STOP_BLOCK_SECONDS)
 
     def second_look(self, snapshot: Snapshot) -> bool:
         """Before it is all over: doubt what was given up; while samples are missing, forget it.
@@ -118,9 +126,7 @@ class Memory:
         if self._looked_again:
             return False
         self._looked_again = True
-        standing = [place for place in self.blocked if not math.isfinite(place.until)]
-        unblocked = len(standing) < len(self.blocked)
-        self.blocked = tuple(standing)
+        unblocked = self.unblock()
         if self.all_collected(snapshot):
             unvisited = self.goals.doubt_visited(snapshot.time)
         else:

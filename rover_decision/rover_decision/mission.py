@@ -25,7 +25,7 @@ RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
 GAP_SECONDS = 1.0  # [s] between two frames: the rover drove blindly
 JUMP = 3.0  # [m] between two frames: somebody has moved it
 PLANS_WITHOUT_GOAL = 12  # in a row, while looking around: nothing is left
-PLANS_UNPLACED = 20  # in a row: turning on the spot does not bring ground to plan on
+PLANS_UNPLACED = 20  # in a row: turning on the spot brings neither ground to plan on nor a way out
 HOME_RESERVE = 1.3  # of the time estimated for the way home
 HOME_EXTRA = 30.0  # [s]
 TILT_AHEAD, TILT_RADIUS = 0.6, 0.5  # [m] where it tilted, for good
@@ -259,9 +259,12 @@ class Mission:
                 if before is State.RETURN_HOME:
                     self._home.trouble()
                 memory.recoveries += 1
-                memory.goals.await_plans()
                 self._ladder.climb(pose, terrain.roomier_side())
-                memory.block_for_a_while(snapshot.time, pose)
+                if memory.goals.unplaced >= PLANS_UNPLACED:
+                    memory.unblock()  # perhaps that is what shuts it in
+                else:
+                    memory.block_ahead(snapshot.time, pose)
+                memory.goals.await_plans()
             case State.TILT:
                 memory.recoveries += 1
                 self._safe_pose = memory.safe_poses.target(pose)

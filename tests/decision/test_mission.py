@@ -17,7 +17,7 @@ from rover_decision.home import WayHome
 from rover_decision.memory import ON_ONE_SPOT, STOPS_HERE, Memory
 from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
 from rover_decision.observers import HELD_SECONDS, CircleMonitor, ProgressMonitor
-from rover_decision.planning.dataflow import Goal, GoalKind, Way
+from rover_decision.planning.dataflow import NO_WAY, Goal, GoalKind, Way
 from rover_decision.recovery import LADDER
 from rover_decision.rocks import MOST_TRIES
 from rover_decision.states import State
@@ -374,6 +374,27 @@ def test_only_what_is_in_view_has_been_looked_at():
     assert len(goals.doubtful(later)) == 1
 
 
+def test_what_was_looked_at_from_afar_is_settled_only_the_second_time():
+    goals = GoalMemory()
+    way = straight_plan(length=1.0)
+    goal = Goal(GoalKind.FRONTIER, MIDDLE.x + 8.0, MIDDLE.y)
+    elsewhere = Goal(GoalKind.FRONTIER, MIDDLE.x, MIDDLE.y + 30.0)
+
+    def look(stamp: int, start: float) -> None:
+        for later, seen in ((0, goal), (1, elsewhere)):
+            plan = dataclasses.replace(way, goal=seen, stamp=2 * stamp + later)
+            for time in np.arange(0.0, LINGER + 0.3, 0.1):
+                goals.update(start + later * 3.0 + float(time), MIDDLE, plan)
+
+    look(1, 0.0)
+    assert len(goals.visited(LINGER + 1.0)) == 1
+    assert len(goals.visited(30.0)) == len(goals.doubtful(30.0)) == 0
+    look(2, 30.0)
+    assert len(goals.visited(60.0)) == 1
+    assert len(goals.visited(30.0 + 2 * FORGET)) == 0
+    assert len(goals.doubtful(30.0 + 2 * FORGET)) == 1
+
+
 def test_before_the_end_what_was_seen_from_afar_is_open_again_and_from_near_doubtful():
     goals = GoalMemory()
     way = straight_plan(length=1.0)
@@ -382,11 +403,11 @@ def test_before_the_end_what_was_seen_from_afar_is_open_again_and_from_near_doub
         seen = dataclasses.replace(way, goal=goal, stamp=stamp)
         for time in np.arange(0.0, LINGER + 0.5, 0.1):
             goals.update(5.0 * stamp + float(time), MIDDLE, seen)
-    assert len(goals.visited(20.0)) == 2
-    assert goals.doubt_visited(20.0)
-    assert len(goals.visited(20.0)) == 0
-    assert goals.doubtful(20.0)[:, 0].tolist() == [MIDDLE.x + 2.0]
-    assert not goals.doubt_visited(21.0)  # nothing that could be doubted more
+    assert len(goals.visited(12.0)) == 2
+    assert goals.doubt_visited(12.0)
+    assert len(goals.visited(12.0)) == 0
+    assert goals.doubtful(12.0)[:, 0].tolist() == [MIDDLE.x + 2.0]
+    assert not goals.doubt_visited(13.0)  # nothing that could be doubted more
 
 
 def test_a_way_home_on_which_the_rover_gets_stuck_again_is_left_for_the_next():
@@ -508,6 +529,22 @@ def test_a_plan_that_cannot_place_the_rover_never_ends_the_exploration():
         states.add(decision.state)
     assert State.RETURN_HOME not in states
     assert State.STUCK in states  # it moves, so that the map gets ground to plan on
+
+
+def test_a_rover_that_is_shut_in_on_the_map_has_not_explored_all():
+    mission = Mission(CONFIG)
+    shut_in = dataclasses.replace(straight_plan(goal=False), home_way=NO_WAY, home_seconds=math.inf)
+    mission.tick(snapshot(1.0))
+    mission.memory.block_ahead(1.0, MIDDLE)
+    states = []
+    for step in range(60):
+        yaw = math.radians(5 * step)  # it looks around
+        now = snapshot(1.1 + 0.1 * step, Pose(MIDDLE.x, MIDDLE.y, yaw), sample_count=0,
+            plan=dataclasses.replace(shut_in, stamp=1 + step))  # fmt: skip
+        states.append(mission.tick(now).state)
+    assert State.RETURN_HOME not in states
+    assert State.STUCK in states
+    assert mission.memory.blocked == ()
 
 
 def test_before_it_gives_up_on_a_sample_it_takes_a_second_look_at_what_it_skipped():

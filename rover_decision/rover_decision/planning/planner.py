@@ -64,7 +64,7 @@ class Planner:
         costmap = Costmap.of(request.grid, request.trail, (pose.x, pose.y), request.blocked)
         roadmap = Roadmap(costmap)
         frontiers = find_frontiers(costmap, request.visited)
-        start = _node_near(roadmap, (pose.x, pose.y), REACH_FROM_BODY)
+        start = roadmap.node_at((pose.x, pose.y), REACH_FROM_BODY)
         if start < 0:
             return Plan(
                 request.stamp,
@@ -77,7 +77,7 @@ class Planner:
                 placed=False,
             )
         roadmap.only_reachable_from(start)
-        home = _node_near(roadmap, request.home, REACH_FROM_BODY)
+        home = roadmap.node_at(request.home, REACH_FROM_BODY)
         ways = roadmap.ways_from([start])
         stops = self._stops(request, roadmap, ways, frontiers)
         goal_way, goal = NO_WAY, None
