@@ -19,6 +19,7 @@ from rover_bringup.command import run_command
 from rover_bringup.data import data_folder
 from rover_bringup.results import Result, summary
 from rover_bringup.run import note
+from rover_bringup.wire_speed import wire_speed
 from rover_common.geometry import wrap_angle
 from rover_common.scoring import load_truth
 from rover_simulator.recording import RecordedFrame, read_recording
@@ -54,7 +55,7 @@ def _bench(as_json: bool, picture: Path | None) -> None:
     else:
         note(f"no recordings in {data}: only speed and memory are measured")
     fresh = subprocess.run([sys.executable, "-c", FRESH], check=True, capture_output=True)
-    result |= json.loads(fresh.stdout)
+    result |= json.loads(fresh.stdout) | wire_speed(SEED)
     print(json.dumps(result) if as_json else summary(result))
 
 
