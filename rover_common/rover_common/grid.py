@@ -32,6 +32,13 @@ class GridGeometry:
         row = np.floor((np.asarray(y) - self.origin_y) / self.resolution).astype(np.intp)
         return row, col
 
+    def nearest_cell_to(
+        self, x: ArrayLike, y: ArrayLike
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Row and column of the cells that hold the points [m], of the nearest ones outside."""
+        row, col = self.cell_of(x, y)
+        return np.clip(row, 0, self.rows - 1), np.clip(col, 0, self.cols - 1)
+
     def contains(self, row: ArrayLike, col: ArrayLike) -> NDArray[np.bool_]:
         """Whether each cell lies inside."""
         row, col = np.asarray(row), np.asarray(col)

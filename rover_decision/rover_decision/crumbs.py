@@ -57,7 +57,7 @@ def way_over_crumbs(
     jumps = np.flatnonzero(np.linalg.norm(np.diff(crumbs, axis=0), axis=1) > ACROSS)
     first, second = np.append(first, jumps), np.append(second, jumps + 1)
     cost = np.linalg.norm(crumbs[first] - crumbs[second], axis=1)
-    blocked = ~costmap.free[costmap.nearest_cell(crumbs[:, 0], crumbs[:, 1])]
+    blocked = ~costmap.free[costmap.geometry.nearest_cell_to(crumbs[:, 0], crumbs[:, 1])]
     cost[blocked[first] | blocked[second]] *= BLOCKED_COST
     graph = csr_array((cost, (first, second)), shape=(len(crumbs), len(crumbs)))
     _, previous = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
@@ -74,7 +74,7 @@ def _clear(
     """Whether the straight lines between points (n, 2) [m] have room on the map."""
     share = np.linspace(0.0, 1.0, SAMPLES)[:, None, None]
     points = starts + share * (ends - starts)
-    cell = costmap.nearest_cell(points[..., 0], points[..., 1])
+    cell = costmap.geometry.nearest_cell_to(points[..., 0], points[..., 1])
     room = costmap.free[cell] & (costmap.clearance[cell] >= ROOM)
     return np.asarray(room.all(axis=0))
 

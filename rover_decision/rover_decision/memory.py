@@ -23,7 +23,7 @@ from rover_decision.observers import (
 from rover_decision.planning.costmap import Blocked
 from rover_decision.planning.dataflow import GoalKind, PlanRequest
 from rover_decision.planning.desk import MakeRequest
-from rover_decision.recovery import SafePoses
+from rover_decision.recovery import Ladder, SafePoses
 from rover_decision.rocks import RockMemory, Target
 
 ON_ONE_SPOT = 25.0  # [s] of turning and looking; no more than two full turns are of use
@@ -42,7 +42,9 @@ class Memory:
         self._rock_deadline = config.rock_deadline
         self._search_limit = config.search_limit
         self._search_seconds = 0.0
-        self._time = snapshot.time  # [s] of the newest frame
+        self.time = snapshot.time  # [s] of the newest frame
+        self.pose = pose  # there
+        self.gap = self.jump = 0.0  # [s] [m] from the frame before to the newest
         self.start_time = snapshot.time
         self.home = (pose.x, pose.y)
         self.samples_total = snapshot.vehicle.sample_count
@@ -54,7 +56,10 @@ class Memory:
         self.odometer = Odometer()
         self.rocks = RockMemory(config.retry_after)
         self.goals = GoalMemory()
+        self.ladder = Ladder()
         self.safe_poses = SafePoses(config.tilt_limit)
+        self.safe_pose: Pose | None = None  # to back to from where it tilted last
+        self.arm_worked = False  # since the mission asked for it last
         self.crumbs = Crumbs()
         self.blocked: tuple[Blocked, ...] = ()
         self.recoveries = 0
@@ -68,8 +73,11 @@ class Memory:
         vehicle, time = snapshot.vehicle, snapshot.time
         goal = None if snapshot.plan is None else snapshot.plan.goal
         if goal is not None and goal.kind is GoalKind.SEARCH:
-            self._search_seconds += max(0.0, time - self._time)
-        self._time = time
+            self._search_seconds += max(0.0, time - self.time)
+        self.gap = time - self.time
+        self.jump = math.hypot(vehicle.pose.x - self.pose.x, vehicle.pose.y - self.pose.y)
+        self.time, self.pose = time, vehicle.pose
+        self.arm_worked |= vehicle.picking_up
         self.odometer.update(vehicle.pose)
         self.progress.update(time, vehicle.pose)
         self.travel.update(time, vehicle.pose)
@@ -140,11 +148,11 @@ class Memory:
             return None
         return self.rocks.nearest(snapshot.rocks, snapshot.vehicle.pose, snapshot.time)
 
-    def approach(self, snapshot: Snapshot, seconds: float) -> None:
-        """Time [s] went into getting to the nearest rock, which is given up after its deadline."""
+    def approach(self, snapshot: Snapshot) -> None:
+        """A frame went into getting to the nearest rock, which is given up after its deadline."""
         target = self.target(snapshot)
         if target is not None:
-            self.rocks.spend(target.rock, seconds)
+            self.rocks.spend(target.rock, self.gap)
             if self.rocks.spent(target.rock) > self._rock_deadline:
                 self.rocks.give_up(target.rock, snapshot.time)
 

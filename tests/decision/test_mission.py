@@ -11,9 +11,10 @@ from rover_common.dataflow import GridMap
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
+from rover_decision.events import GAP_SECONDS, PLANS_WITHOUT_GOAL
 from rover_decision.follower import follow
 from rover_decision.memory import Memory
-from rover_decision.mission import GAP_SECONDS, PLANS_WITHOUT_GOAL, Mission
+from rover_decision.mission import Mission
 from rover_decision.observers import CircleMonitor
 from rover_decision.planning.dataflow import Goal, GoalKind, Way
 from rover_decision.rocks import MOST_TRIES

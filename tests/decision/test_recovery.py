@@ -9,8 +9,9 @@ from rover import MIDDLE, snapshot, straight_plan
 
 from rover_common.geometry import Pose
 from rover_decision.config import DecisionConfig
+from rover_decision.events import PLANS_WITHOUT_GOAL
 from rover_decision.memory import ON_ONE_SPOT, STOPS_HERE
-from rover_decision.mission import PLANS_WITHOUT_GOAL, Mission
+from rover_decision.mission import Mission
 from rover_decision.observers import HELD_SECONDS, ProgressMonitor
 from rover_decision.planning.dataflow import NO_WAY
 from rover_decision.recovery import LADDER

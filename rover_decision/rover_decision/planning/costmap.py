@@ -77,13 +77,6 @@ class Costmap:
             room=_distance(obstacle | beside, geometry.resolution),
         )
 
-    def nearest_cell(
-        self, x: NDArray[np.float64], y: NDArray[np.float64]
-    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Row and column of the cell in which each point [m] lies, of the nearest one outside."""
-        row, col = self.geometry.cell_of(x, y)
-        return np.clip(row, 0, self.geometry.rows - 1), np.clip(col, 0, self.geometry.cols - 1)
-
 
 def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArray[np.int8]]:
     """The known part of the map with a margin."""

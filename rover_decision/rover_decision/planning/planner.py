@@ -21,6 +21,7 @@ from rover_decision.planning.dataflow import (
     PlanRequest,
 )
 from rover_decision.planning.frontiers import Frontier, find_frontiers, near_visited
+from rover_decision.planning.region import Region
 from rover_decision.planning.roadmap import Roadmap, Ways
 from rover_decision.planning.tour import MOST_STOPS, tour_costs
 from rover_decision.planning.ways import drivable_way
@@ -64,7 +65,7 @@ class Planner:
         costmap = Costmap.of(request.grid, request.trail, (pose.x, pose.y), request.blocked)
         roadmap = Roadmap(costmap)
         frontiers = find_frontiers(costmap, request.visited)
-        start = roadmap.node_at((pose.x, pose.y), REACH_FROM_BODY)
+        start = Region.everywhere(roadmap).node_at((pose.x, pose.y), REACH_FROM_BODY)
         if start < 0:
             return Plan(
                 request.stamp,
@@ -76,10 +77,10 @@ class Planner:
                 _explored(costmap, frontiers),
                 placed=False,
             )
-        roadmap.only_reachable_from(start)
-        home = roadmap.node_at(request.home, REACH_FROM_BODY)
         ways = roadmap.ways_from([start])
-        stops = self._stops(request, roadmap, ways, frontiers)
+        reachable = Region(roadmap, np.isfinite(ways.seconds[0]))
+        home = reachable.node_at(request.home, REACH_FROM_BODY)
+        stops = self._stops(request, reachable, ways.seconds[0], frontiers)
         goal_way, goal = NO_WAY, None
         best = self._choose(request, roadmap, ways, stops, home)
         if best is None and request.search:
@@ -87,7 +88,7 @@ class Planner:
         if best is not None:
             goal, goal_way = best.goal, drivable_way(roadmap.way(ways, 0, best.node), costmap)
         home_way, home_seconds = NO_WAY, math.inf
-        if home >= 0 and np.isfinite(ways.seconds[0, home]):
+        if home >= 0:
             home_way = drivable_way(roadmap.way(ways, 0, home), costmap)
             home_seconds = float(ways.seconds[0, home])
         if request.home_by_crumbs:
@@ -99,16 +100,19 @@ class Planner:
         )
 
     def _stops(
-        self, request: PlanRequest, roadmap: Roadmap, ways: Ways, frontiers: list[Frontier]
+        self,
+        request: PlanRequest,
+        reachable: Region,
+        seconds: NDArray[np.float64],
+        frontiers: list[Frontier],
     ) -> list[_Stop]:
-        """The nearest of what is left: rocks and frontiers."""
-        seconds = ways.seconds[0]
+        """The nearest of what is left: rocks and frontiers; `seconds` (nodes,) to get there."""
         found: list[_Stop] = []
         for rock in request.rocks:
-            node = _node_near(roadmap, (rock.x, rock.y), REACH_OF_ROCK)
+            node = _node_near(reachable, (rock.x, rock.y), REACH_OF_ROCK)
             found.append(_Stop(Goal(GoalKind.ROCK, rock.x, rock.y, rock.id), node))
         for frontier in frontiers:
-            nodes = roadmap.nodes_near(frontier.x, frontier.y, REACH_OF_FRONTIER)
+            nodes = reachable.nodes_near(frontier.x, frontier.y, REACH_OF_FRONTIER)
             cost = np.where(nodes >= 0, seconds[nodes], np.inf)
             nearest = int(np.argmin(cost))
             x, y = float(frontier.x[nearest]), float(frontier.y[nearest])
@@ -116,7 +120,7 @@ class Planner:
             if near_visited(frontier.x, frontier.y, request.doubtful).any():
                 worth = min(worth, DOUBTFUL_SECONDS)
             found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest]), worth))
-        found = [stop for stop in found if stop.node >= 0 and np.isfinite(seconds[stop.node])]
+        found = [stop for stop in found if stop.node >= 0]
         large = [stop for stop in found if math.isinf(stop.worth)]
         large = sorted(large, key=lambda stop: float(seconds[stop.node]))
         small = [stop for stop in found if 0.0 < stop.worth < math.inf]
@@ -137,10 +141,9 @@ class Planner:
             onward = roadmap.ways_from(nodes).seconds
             last = onward[:, home] if home >= 0 else np.zeros(len(stops))
             worth = np.array([stop.worth for stop in stops])
-            last = np.where(np.isfinite(last), last, 0.0)
             cost = tour_costs(first, onward[:, nodes], last, worth)
-            at_once = ways.seconds[0, home] if home >= 0 else 0.0
-            if worth.sum() + (at_once if math.isfinite(at_once) else 0.0) < cost.min():
+            at_once = float(ways.seconds[0, home]) if home >= 0 else 0.0
+            if worth.sum() + at_once < cost.min():
                 return None
         else:
             cost = first
@@ -148,9 +151,9 @@ class Planner:
         return stops[int(np.argmin(cost))]
 
 
-def _node_near(roadmap: Roadmap, point: tuple[float, float], reach: float) -> int:
+def _node_near(reachable: Region, point: tuple[float, float], reach: float) -> int:
     """The node nearest to a point [m]; -1 where none is within `reach` [m]."""
-    return int(roadmap.nodes_near(np.array([point[0]]), np.array([point[1]]), reach)[0])
+    return int(reachable.nodes_near(np.array([point[0]]), np.array([point[1]]), reach)[0])
 
 
 def _unsearched(
