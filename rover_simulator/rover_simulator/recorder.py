@@ -45,7 +45,7 @@ def record_drive(folder: Path, seed: int = 1, frames: int = 300) -> RecordedDriv
     """Render a drive from the start into the longest arm, and write it as a recorded run."""
     world = generate_world(seed, size=0.6)
     world.save(folder / "world")
-    renderer = Renderer(world, Terrain.of(world.navigable, seed))
+    renderer = Renderer(world, Terrain.of(world.navigable, seed, samples=world.samples))
     (folder / "IMG").mkdir(parents=True, exist_ok=True)
     shown = np.zeros(len(world.samples), np.intp)
     with (folder / LOG_NAME).open("w", newline="") as log:

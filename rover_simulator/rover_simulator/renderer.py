@@ -27,7 +27,6 @@ BOULDER = np.array([17, 13, 10.0], np.float32)
 SAMPLE = np.array([170, 143, 15.0], np.float32)  # lit by itself, so that it is the same in shadow
 FOG = np.array([139, 125, 114.0], np.float32)
 FOG_DENSITY = 0.005  # [1/m], exponential squared
-FOG_FROM = 5.0  # [m] nearer, it is less than a thousandth
 PAINT = 8  # [1/m] colours of the ground
 SHADOW = 4  # [1/m] its shadows, whose edges are soft
 GRAIN_SCALE = 5  # texels of the fine texture per one of the paint: 40 per metre
@@ -35,11 +34,9 @@ SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
 TEXTURE = 0.06  # of the ground's colour: its fine texture near the camera, one pixel from afar
 TEXTURE_RANGE = 0.8  # [m] over which it fades
 JPEG_QUALITY = 75
+SHAPE = (ROVER_CAMERA.height, ROVER_CAMERA.width)
 
 SAMPLE_RADIUS, SAMPLE_HEIGHT = 0.08, 0.13  # [m]
-# The original's samples stand at the floor's height where the ground of a wall's foot is higher,
-# but people chose their places so that they show.
-MOST_BURIED = 0.05  # [m]
 
 
 @dataclass(frozen=True)
@@ -54,11 +51,7 @@ class Renderer:
     def __init__(self, world: World, terrain: Terrain) -> None:
         self._samples = world.samples.copy()
         self._solids = [terrain.triangles()]
-        ground = terrain.height_at(world.samples[:, 0], world.samples[:, 1])
-        self._solids += [
-            _sample_mesh(float(x), float(y), max(0.0, float(height) - MOST_BURIED))
-            for (x, y), height in zip(world.samples, ground, strict=True)
-        ]
+        self._solids += [_sample_mesh(float(x), float(y)) for x, y in world.samples]
         self._solids += [boulders.mesh(boulder) for boulder in world.boulders]
         self._build_scene()
         self._terrain = terrain
@@ -92,16 +85,22 @@ class Renderer:
         origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
         rays = self._rays @ rotation.T.astype(np.float32)
         geometry, distance = self._cast(origin, rays)
-        points = origin.astype(np.float32) + rays * distance[:, None]
-        colors = self._surface(points, geometry, rays, distance)
-        far = np.flatnonzero(distance > FOG_FROM)
-        fog = 1.0 - np.exp(-((FOG_DENSITY * distance[far]) ** 2))
-        colors[far] += fog[:, None] * (FOG - colors[far])
-        sky = geometry < 0
-        colors[sky] = sky_colors(rays[sky])
-        image = colors.reshape(ROVER_CAMERA.height, ROVER_CAMERA.width, 3)
+        # One array per coordinate and colour: numpy is slow along an axis of three.
+        x, y = (np.float32(origin[axis]) + rays[:, axis] * distance for axis in (0, 1))
+        colors, grain = self._ground(x, y)
+        grain *= np.exp(-distance / TEXTURE_RANGE)
+        colors *= 1.0 + grain
+        shine(colors, rays, distance)
+        self._color_things(colors, geometry, grain)
+        fog = 1.0 - np.exp(-((FOG_DENSITY * distance) ** 2))
+        for plane, color in zip(colors, FOG, strict=True):
+            plane += fog * (color - plane)
+        sky = np.flatnonzero(geometry < 0)
+        colors[:, sky] = sky_colors(rays[sky]).T
+        levels = np.clip(colors, 0, 255).astype(np.uint8)
+        image = np.asarray(cv2.merge([plane.reshape(SHAPE) for plane in levels]))
         pixels = np.bincount(geometry[geometry >= 0], minlength=len(self._meshes))[1:]
-        return Rendering(np.clip(image, 0, 255).astype(np.uint8), pixels[: len(self._samples)])
+        return Rendering(image, pixels[: len(self._samples)])
 
     def _cast(
         self, origin: NDArray[np.float64], rays: NDArray[np.float32]
@@ -116,8 +115,8 @@ class Renderer:
         plain &= reach > 0.0
         geometry = np.zeros(len(rays), np.int32)
         distance = np.zeros(len(rays), np.float32)
-        np.divide(-origin[2], rays[:, 2], out=distance, where=plain, casting="same_kind")
-        searched = np.flatnonzero(~plain)
+        found, searched = np.flatnonzero(plain), np.flatnonzero(~plain)
+        distance[found] = -origin[2] / rays[found, 2]
         if len(searched):
             there = rays[searched]
             hit = self._trace(np.broadcast_to(origin, there.shape), there)
@@ -138,27 +137,30 @@ class Renderer:
             )
         return max(0.0, reach)
 
-    def _surface(
-        self,
-        points: NDArray[np.float32],
-        geometry: NDArray[np.integer],
-        rays: NDArray[np.float32],
-        distance: NDArray[np.float32],
-    ) -> NDArray[np.float32]:
-        """Colours (n, 3) of points (n, 3) [m] on the ground, on samples or on boulders."""
-        shape = (ROVER_CAMERA.height, ROVER_CAMERA.width)  # remap takes no long columns
-        x, y = ((points[:, axis] * PAINT - 0.5).reshape(shape) for axis in (0, 1))
+    def _ground(
+        self, x: NDArray[np.float32], y: NDArray[np.float32]
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Colours (3, n) of the ground at points (n,) [m], and its fine texture (n,)."""
+        x, y = ((line * PAINT - 0.5).reshape(SHAPE) for line in (x, y))  # remap takes no long lines
         painted = cv2.remap(self._colors, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         fine = cv2.remap(
             self._grain, x * GRAIN_SCALE, y * GRAIN_SCALE, cv2.INTER_LINEAR, None, cv2.BORDER_WRAP
         )
-        grain = fine.ravel() * np.exp(-distance / TEXTURE_RANGE)
-        colors = painted.reshape(-1, 3) * (1.0 + grain)[:, None]
-        shine(colors, rays, distance)
-        colors[(geometry > 0) & (geometry <= len(self._samples))] = SAMPLE
-        is_boulder = geometry > len(self._samples)
-        colors[is_boulder] = BOULDER * (1.0 + 4.0 * grain[is_boulder])[:, None]
-        return colors
+        planes = np.array(cv2.split(painted), np.float32).reshape(3, -1)
+        return planes, np.asarray(fine, np.float32).ravel()
+
+    def _color_things(
+        self,
+        colors: NDArray[np.float32],
+        geometry: NDArray[np.integer],
+        grain: NDArray[np.float32],
+    ) -> None:
+        """Change colours (3, n) where samples and boulders are seen."""
+        things = np.flatnonzero(geometry > 0)
+        is_sample = geometry[things] <= len(self._samples)
+        colors[:, things[is_sample]] = SAMPLE[:, None]
+        boulder = things[~is_sample]
+        colors[:, boulder] = BOULDER[:, None] * (1.0 + 4.0 * grain[boulder])
 
     def _paint(self, terrain: Terrain) -> NDArray[np.float32]:
         """Colours of the ground seen from above, (200 PAINT, 200 PAINT, 3), with its shadows."""
@@ -199,14 +201,14 @@ def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
     return data.tobytes()
 
 
-def _sample_mesh(x: float, y: float, base: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """A rock of eight sides whose foot is at the height `base` [m]."""
+def _sample_mesh(x: float, y: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """A rock of eight sides; its foot is at the floor's height, also where the ground is higher."""
     angle = np.arange(8) * math.pi / 4
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1) * SAMPLE_RADIUS
-    low = np.column_stack([ring + np.array([x, y]), np.full(8, base)])
-    shoulder = np.full(8, base + 0.7 * SAMPLE_HEIGHT)
+    low = np.column_stack([ring + np.array([x, y]), np.zeros(8)])
+    shoulder = np.full(8, 0.7 * SAMPLE_HEIGHT)
     high = np.column_stack([0.75 * ring + np.array([x, y]), shoulder])
-    top = np.array([[x, y, base + SAMPLE_HEIGHT]])
+    top = np.array([[x, y, SAMPLE_HEIGHT]])
     i, j = np.arange(8), (np.arange(8) + 1) % 8
     sides = np.concatenate(
         [

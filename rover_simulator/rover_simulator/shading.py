@@ -70,15 +70,16 @@ def noise(shape: tuple[int, ...], sigma: float, seed: int) -> NDArray[np.float32
 def shine(
     colors: NDArray[np.float32], rays: NDArray[np.float32], distance: NDArray[np.float32]
 ) -> None:
-    """Change ground (n, 3), seen along rays (n, 3) at distances (n,) [m], where it is bright."""
-    where = np.flatnonzero(colors[:, 0] > 100.0)
-    color, ray = colors[where], rays[where, :2]
-    bright = np.minimum((color[:, 0] - 100.0) / 100.0, 1.0)
+    """Change ground (3, n), seen along rays (n, 3) at distances (n,) [m], where it is bright."""
+    where = np.flatnonzero(colors[0] > 100.0)
+    ray = rays[where, :2]
+    bright = np.minimum((colors[0, where] - 100.0) / 100.0, 1.0)
     gain = np.interp(distance[where], SAND_RANGE, SAND_GAIN).astype(np.float32) - 1.0
     toward = np.maximum(ray @ SHEEN_TO, 0.0) / np.hypot(ray[:, 0], ray[:, 1])  # cosine of an angle
-    color *= (1.0 + bright * gain)[:, None]
-    color += (bright * np.square(np.square(toward)))[:, None] * SHEEN
-    colors[where] = color
+    factor = 1.0 + bright * gain
+    sheen = bright * np.square(np.square(toward))
+    for plane, extra in zip(colors, SHEEN, strict=True):
+        plane[where] = plane[where] * factor + sheen * extra
 
 
 def from_sun(rays: NDArray[np.float32]) -> NDArray[np.float32]:

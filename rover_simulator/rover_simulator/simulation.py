@@ -31,7 +31,7 @@ class Simulation:
 
     def __init__(self, world: World, terrain_seed: int, frame_steps: int) -> None:
         """frame_steps: physics steps of 0.02 s in one rendered frame."""
-        self._terrain = Terrain.of(world.navigable, terrain_seed)
+        self._terrain = Terrain.of(world.navigable, terrain_seed, samples=world.samples)
         self._renderer = Renderer(world, self._terrain)
         self._boulders = world.boulders
         self._vehicle = Vehicle(world.start)

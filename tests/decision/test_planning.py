@@ -14,9 +14,10 @@ from rover import rock, straight_plan
 
 from rover_common.dataflow import EDGE, GridMap
 from rover_common.geometry import Pose
+from rover_common.grid import GridGeometry
 from rover_decision.crumbs import Crumbs, way_over_crumbs
 from rover_decision.planning.costmap import Blocked, Costmap
-from rover_decision.planning.dataflow import GoalKind, PlanRequest
+from rover_decision.planning.dataflow import GoalKind, PlanRequest, Searched
 from rover_decision.planning.desk import PlanDesk
 from rover_decision.planning.frontiers import find_frontiers
 from rover_decision.planning.planner import Planner
@@ -194,6 +195,18 @@ def test_the_unsearched_is_the_goal_when_rocks_are_missing():
     searched = SearchedGround().so_far()
     assert plan(HALL, search=True, searched=searched).goal.kind is GoalKind.SEARCH
     assert plan(HALL, search=False, searched=searched).goal is None
+
+
+def test_the_foot_of_a_wall_is_searched_like_the_ground_before_it():
+    geometry = GridGeometry.of_world(1.0)
+    looked = np.full((geometry.rows, geometry.cols), 2.0, np.float32)
+    assert plan(HALL, search=True, searched=Searched(geometry, looked)).goal is None
+    looked[20, 40] = 8.0  # half a metre into the east wall
+    made = plan(HALL, search=True, searched=Searched(geometry, looked))
+    assert (made.goal.x, made.goal.y) == (40.5, 20.5)
+    assert np.hypot(*(made.way.points[-1] - (40.5, 20.5))) < 2.0
+    looked[20, 40], looked[20, 41] = 2.0, 8.0  # deeper than a foot reaches
+    assert plan(HALL, search=True, searched=Searched(geometry, looked)).goal is None
 
 
 def test_on_an_empty_map_it_looks_around_from_where_it_stands():

@@ -9,7 +9,7 @@ from rover_common.geometry import Pose
 from rover_simulator.profile import height_at, spread_at
 from rover_simulator.renderer import Renderer
 from rover_simulator.shading import sky_colors
-from rover_simulator.terrain import COUNT, Terrain
+from rover_simulator.terrain import COUNT, SAMPLE_GROUND, SPACING, Terrain
 from rover_simulator.world import World
 from rover_simulator.worldgen import generate_world
 
@@ -95,6 +95,21 @@ def test_heights_follow_the_profile_and_the_seed():
     assert (drawn[medians == 0.0] == 0.0).all()
     assert (drawn == Terrain.of(canyon, 7).heights).all()
     assert (drawn != Terrain.of(canyon, 8).heights).any()
+
+
+def test_samples_stand_where_the_ground_is_low_and_show():
+    sample = np.array([[141.9, 101.3]])  # on the foot of the hall's east wall
+    plain = Terrain.of(HALL, 3)
+    low = Terrain.of(HALL, 3, samples=sample)
+    assert plain.height_at(sample[:, 0], sample[:, 1]) > 0.2
+    assert low.height_at(sample[:, 0], sample[:, 1]) <= SAMPLE_GROUND
+    at = np.arange(COUNT) * SPACING
+    away = np.hypot(*np.meshgrid(at - sample[0, 0], at - sample[0, 1]))
+    assert (low.heights <= plain.heights).all()
+    assert (low.heights == plain.heights)[away > 2.0].all()
+    world = World("hall", HALL, sample, START)
+    seen = Renderer(world, low).render(Pose(138.5, 101.3, 0.0))
+    assert seen.sample_pixels[0] >= 4
 
 
 def test_skylines_are_round():

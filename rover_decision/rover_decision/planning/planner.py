@@ -23,6 +23,7 @@ from rover_decision.planning.dataflow import (
 from rover_decision.planning.frontiers import Frontier, find_frontiers, near_visited
 from rover_decision.planning.region import Region
 from rover_decision.planning.roadmap import Roadmap, Ways
+from rover_decision.planning.search import hiding_places
 from rover_decision.planning.tour import MOST_STOPS, tour_costs
 from rover_decision.planning.ways import drivable_way
 
@@ -84,7 +85,7 @@ class Planner:
         goal_way, goal = NO_WAY, None
         best = self._choose(request, roadmap, ways, stops, home)
         if best is None and request.search:
-            best = _unsearched(request, roadmap, ways.seconds[0])
+            best = _search(request, costmap, reachable, ways.seconds[0])
         if best is not None:
             goal, goal_way = best.goal, drivable_way(roadmap.way(ways, 0, best.node), costmap)
         home_way, home_seconds = NO_WAY, math.inf
@@ -156,22 +157,22 @@ def _node_near(reachable: Region, point: tuple[float, float], reach: float) -> i
     return int(reachable.nodes_near(np.array([point[0]]), np.array([point[1]]), reach)[0])
 
 
-def _unsearched(
-    request: PlanRequest, roadmap: Roadmap, seconds: NDArray[np.float64]
+def _search(
+    request: PlanRequest, costmap: Costmap, reachable: Region, seconds: NDArray[np.float64]
 ) -> _Stop | None:
-    """The nearest drivable place that was not looked at from near, or else from nearer still."""
-    if request.searched is None or len(roadmap) == 0:
+    """The nearest place that was not looked at from near, or else from nearer still."""
+    if request.searched is None:
         return None
-    row, col = request.searched.geometry.cell_of(roadmap.x, roadmap.y)
-    nearest_look = request.searched.distance[row, col]
-    at_hand = np.isfinite(seconds)
-    at_hand &= ~near_visited(roadmap.x, roadmap.y, request.visited)
+    x, y, looked_from = hiding_places(request.searched, costmap)
+    nodes = reachable.nodes_near(x, y, REACH_OF_ROCK)
+    cost = np.where(nodes >= 0, seconds[nodes], np.inf)
+    cost[near_visited(x, y, request.visited)] = np.inf
     for distance in SEARCH_DISTANCES:
-        left = at_hand & (nearest_look > distance)
-        if left.any():
-            node = int(np.argmin(np.where(left, seconds, np.inf)))
-            goal = Goal(GoalKind.SEARCH, float(roadmap.x[node]), float(roadmap.y[node]))
-            return _Stop(goal, node)
+        left = np.where(looked_from > distance, cost, np.inf)
+        if np.isfinite(left).any():
+            nearest = int(np.argmin(left))
+            goal = Goal(GoalKind.SEARCH, float(x[nearest]), float(y[nearest]))
+            return _Stop(goal, int(nodes[nearest]))
     return None
 
 
