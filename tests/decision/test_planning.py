@@ -15,8 +15,9 @@ from rover import rock, straight_plan
 from rover_common.dataflow import EDGE, GridMap
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
-from rover_decision.crumbs import Crumbs, way_over_crumbs
+from rover_decision.crumbs import Crumbs
 from rover_decision.planning.costmap import Blocked, Costmap
+from rover_decision.planning.crumb_way import way_over_crumbs
 from rover_decision.planning.dataflow import GoalKind, PlanRequest, Searched
 from rover_decision.planning.desk import PlanDesk
 from rover_decision.planning.frontiers import find_frontiers

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.vehicle import MAX_STEERING, TURN_IN_PLACE_RATE
-from rover_decision.crumbs import way_over_crumbs
 from rover_decision.planning.costmap import Costmap
+from rover_decision.planning.crumb_way import way_over_crumbs
 from rover_decision.planning.dataflow import (
     NO_WAY,
     Goal,
