@@ -30,6 +30,7 @@ FOG_DENSITY = 0.005  # [1/m], exponential squared
 PAINT = 8  # [1/m] colours of the ground
 SHADOW = 4  # [1/m] its shadows, whose edges are soft
 GRAIN_SCALE = 5  # texels of the fine texture per one of the paint: 40 per metre
+BEYOND = 1e-3  # [m] past the ground that is seen from behind
 SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
 TEXTURE = 0.06  # of the ground's colour: its fine texture near the camera, one pixel from afar
 TEXTURE_RANGE = 0.8  # [m] over which it fades
@@ -120,9 +121,30 @@ class Renderer:
         if len(searched):
             there = rays[searched]
             hit = self._trace(np.broadcast_to(origin, there.shape), there)
+            if self._terrain.height_at(origin[:1], origin[1:2])[0] > origin[2]:
+                self._look_out_of_the_ground(origin, there, hit)
             geometry[searched] = hit["geomID"]
             distance[searched] = np.where(hit["geomID"] >= 0, hit["tfar"], 0.0)
         return geometry, distance
+
+    def _look_out_of_the_ground(
+        self, origin: NDArray[np.float64], rays: NDArray[np.float32], hit: dict[str, NDArray]
+    ) -> None:
+        """Correct what unit rays (n, 3) meet that start inside of a wall.
+
+        Ground has one side: from behind it is not there, and nothing is below it but the sky.
+        """
+        ground = hit["geomID"] == 0
+        behind = ground & (np.einsum("ij,ij->i", hit["Ng"], rays) > 0.0)
+        hit["geomID"][ground & ~behind] = -1  # the flat floor, which goes on below the walls
+        through = np.flatnonzero(behind)
+        if not len(through):
+            return
+        onward = rays[through]
+        passed = hit["tfar"][through] + BEYOND
+        beyond = self._trace(origin + onward * passed[:, None], onward)
+        hit["geomID"][through] = beyond["geomID"]
+        hit["tfar"][through] = beyond["tfar"] + passed
 
     def _bare(self, origin: NDArray[np.float64]) -> float:
         """Below a point, the radius [m] of flat floor on which nothing stands; 0 for none."""

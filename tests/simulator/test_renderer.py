@@ -68,6 +68,19 @@ def test_sky_darkens_upward(elevation_deg, red):
     assert sky_colors(rays.astype(np.float32))[:, 0].mean() == pytest.approx(red, abs=8)
 
 
+def test_a_wall_hides_nothing_from_inside(renderer, terrain):
+    inside = Pose(144.0, 100.0, math.pi)  # three metres into the hall's east wall, looking back
+    assert terrain.height_at(np.array([143.6]), np.array([100.0]))[0] > 3.0
+    out = renderer.render(inside).image.astype(int)
+    before = renderer.render(Pose(140.0, 100.0, math.pi)).image.astype(int)
+    # what is far away looks the same from in there, and where the floor ends below is sky
+    assert np.abs(out[:76] - before[:76]).mean() < 12.0
+    red, blue = out[-20:, :, 0], out[-20:, :, 2]
+    assert ((red > 96) & (red < 190) & (red - blue < 25)).all()
+    sand = out[82:88, 140:180, 0]
+    assert np.median(sand) > 190
+
+
 def test_a_sample_shows_yellow_and_is_counted(renderer):
     rendering = renderer.render(Pose(101.5, 100, 0))
     image = rendering.image.astype(int)
