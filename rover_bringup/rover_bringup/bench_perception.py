@@ -173,7 +173,7 @@ class _Stages:
         if not view.usable:
             return
         mask = self.timed("rock_mask", rock_mask, image, view)
-        self.timed("rocks", detect_rocks, mask, view, pose)
+        self.timed("rocks", detect_rocks, image, mask, view, pose)
         columns = self.timed("classes", ground_columns, image, mask, view)
         self.timed("evidence", self._grid.add, view, columns, pose)
         self.timed("scan", free_scan, view, columns, CONFIG.max_range)

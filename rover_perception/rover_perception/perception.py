@@ -62,7 +62,7 @@ class Perception:
             rocks = self._rocks.believed()
             return Percept(frame.stamp, nothing, nothing, scan, rocks, map_stamp)
         mask = rock_mask(frame.image, view)
-        sightings = detect_rocks(mask, view, pose)
+        sightings = detect_rocks(frame.image, mask, view, pose)
         columns = ground_columns(frame.image, mask if len(sightings.x) else None, view)
         x, y = self._evidence.add(view, columns, pose)
         if sightings.rocks:

@@ -19,6 +19,12 @@ MIDDLE_HEIGHT = 0.065  # [m] above the ground
 MAX_RANGE = 12.0  # [m] beyond, a row of pixels is 6 m long
 PIXEL_ERROR = 0.7  # [px] of a blob's middle
 BODY_ERROR = 0.05  # [m] the sample's shape: its visible middle is not its centre
+# The JPEG file holds colour in blocks of so many pixels, within which a sample tints what is dark;
+# decoding carries that a little beyond. On generated canyons such tints were 1.8 to 5 times as pale
+# as the sample beside them, and parts of one sample at most 1.5.
+COLOR_BLOCK = 16  # [px]
+BLOCK_EDGE = 2  # [px]
+PALER = 1.5
 
 
 @dataclass(frozen=True)
@@ -43,12 +49,17 @@ class RockSightings:
         return cls((), np.empty(0), np.empty(0))
 
 
-def detect_rocks(mask: NDArray[np.uint8], view: View, pose: Pose) -> RockSightings:
+def detect_rocks(
+    image: NDArray[np.uint8], mask: NDArray[np.uint8], view: View, pose: Pose
+) -> RockSightings:
     """The blobs of the mask that are near and large enough to tell where they are."""
     if cv2.countNonZero(mask) < MIN_PIXELS:
         return RockSightings.none()
-    _, _, stats, centroids = cv2.connectedComponentsWithStats(mask, connectivity=8)
+    _, labels, stats, centroids = cv2.connectedComponentsWithStats(mask, connectivity=8)
     stats, centroids = stats[1:], centroids[1:]  # the first is the background
+    if len(stats) > 1:
+        own = ~_is_tint(stats, _yellow(image, labels))
+        stats, centroids = stats[own], centroids[own]
     left, top, width, height, area = stats.T
     x, y = view.ground(centroids[:, 0] + 0.5, centroids[:, 1] + 0.5, MIDDLE_HEIGHT)
     distance = np.hypot(x - view.position[0], y - view.position[1])
@@ -70,3 +81,21 @@ def detect_rocks(mask: NDArray[np.uint8], view: View, pose: Pose) -> RockSightin
         for direction, error in zip(directions, errors, strict=True)  # a handful of blobs
     )
     return RockSightings(rocks, shown_x, shown_y)
+
+
+def _yellow(image: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDArray[np.floating]:
+    """Mean green above blue (n,) [levels] of each labelled blob."""
+    row, col = np.nonzero(labels)
+    above = image[row, col, 1].astype(float) - image[row, col, 2]
+    label = labels[row, col]
+    return np.bincount(label, above)[1:] / np.bincount(label)[1:]
+
+
+def _is_tint(stats: NDArray[np.integer], yellow: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """Whether each blob (n,) is much paler than another one in the same block of colour."""
+    corner, size = stats[:, :2], stats[:, 2:4]
+    first = (corner - BLOCK_EDGE) // COLOR_BLOCK
+    last = (corner + size - 1 + BLOCK_EDGE) // COLOR_BLOCK
+    shared = ((first[:, None] <= last) & (first <= last[:, None])).all(axis=2)
+    paler = yellow[:, None] * PALER < yellow
+    return np.asarray((shared & paler).any(axis=1))

@@ -4,11 +4,14 @@ A track is a point in space. Each line of sight says nothing of how far away it 
 it is across the line, so a few frames from different places find it by triangulation. One from a
 single place still has a range, by how high samples are; that height is a property of the rock and
 the same in all frames, so it enters once, as the track's prior.
+
+Lines to two rocks cross as well, where there is none. So a rock whose range is not known yet is
+followed along its line of sight only, and one is believed only if its lines meet in one point.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,50 +23,66 @@ GATE = 3.0  # standard deviations within which a sighting belongs to a rock
 MIN_GATE = 0.5  # [m]; rocks are nowhere nearer to each other than this
 # A rock is believed when several frames agree on where it is.
 BELIEVED_OBSERVATIONS = 4
-BELIEVED_ERROR = 0.5  # [m] standard deviation in its worst direction
+BELIEVED_ERROR = 0.4  # [m] standard deviation in its worst direction
+BELIEVED_MISFIT = 3.0  # standard deviations of chi-square above its mean
+SAME_SIDE = math.cos(math.radians(30.0))  # of lines of sight along which a rock is followed
 # Errors of one place repeat from frame to frame, so a rock is never known better than this.
 LEAST_VARIANCE = 0.1**2  # [m^2]
 # A sample's middle is at 0.045 to 0.085 m, more when its lower part is buried in the wall's foot.
 HEIGHT_ERROR = 0.025  # [m] of the height of its middle
-PRIOR = np.diag([0.0, 0.0, 1.0 / HEIGHT_ERROR**2])
-PRIOR_VECTOR = PRIOR @ (0.0, 0.0, MIDDLE_HEIGHT)
+PRIOR = np.diag([0.0, 0.0, 1.0, 0.0])  # a quadric, as the tracks' are
+PRIOR[2, 3] = PRIOR[3, 2] = -MIDDLE_HEIGHT
+PRIOR[3, 3] = MIDDLE_HEIGHT**2
+PRIOR /= HEIGHT_ERROR**2
 
 
-@dataclass
 class _Track:
-    id: int
-    information: NDArray[np.floating]  # (3, 3) [1/m^2] of the lines of sight, without the prior
-    vector: NDArray[np.floating]  # (3,) information times position
-    observations: int
-    last_seen: int  # [ns]
+    """What the lines of sight of one rock say together.
 
-    @classmethod
-    def of(cls, id: int, sighting: RockSighting, stamp: int) -> _Track:
+    quadric: (4, 4) [1/m^2] of the weighted square distance of a point from all of the lines: for a
+    point p it is (p, 1)' quadric (p, 1). They add up (Garland and Heckbert, 1997).
+    """
+
+    def __init__(self, id: int, sighting: RockSighting, stamp: int) -> None:
         across = np.eye(3) - np.outer(sighting.direction, sighting.direction)
-        information = across / sighting.error**2
-        return cls(id, information, information @ sighting.origin, 1, stamp)
-
-    @property
-    def position(self) -> NDArray[np.floating]:
-        """(2,) [m] map frame."""
-        return np.linalg.solve(self.information + PRIOR, self.vector + PRIOR_VECTOR)[:2]
-
-    @property
-    def covariance(self) -> NDArray[np.floating]:
-        """(2, 2) [m^2]"""
-        return np.linalg.inv(self.information + PRIOR)[:2, :2] + LEAST_VARIANCE * np.eye(2)
+        offset = np.column_stack([across, -across @ sighting.origin]) / sighting.error
+        self.id = id
+        self.quadric = offset.T @ offset
+        self.observations = 1
+        self.direction = sighting.direction  # of the newest line
+        self.last_seen = stamp  # [ns]
+        self._solve()
 
     def join(self, other: _Track) -> None:
-        self.information = self.information + other.information
-        self.vector = self.vector + other.vector
+        self.quadric = self.quadric + other.quadric
         self.observations += other.observations
-        self.last_seen = max(self.last_seen, other.last_seen)
+        if other.last_seen >= self.last_seen:
+            self.direction, self.last_seen = other.direction, other.last_seen
+        self._solve()
+
+    def _solve(self) -> None:
+        total = self.quadric + PRIOR
+        covariance = np.linalg.inv(total[:3, :3])
+        point = np.append(-covariance @ total[:3, 3], 1.0)
+        misfit = float(point @ total @ point)  # chi-square
+        freedom = 2 * self.observations - 2  # two per line and the height, less the point's three
+        self.position = point[:2]  # [m] map frame
+        self.covariance = covariance[:2, :2] + LEAST_VARIANCE * np.eye(2)  # [m^2]
+        self.located = float(np.linalg.eigvalsh(self.covariance)[-1]) < BELIEVED_ERROR**2
+        self.fits = misfit <= freedom + BELIEVED_MISFIT * math.sqrt(2 * freedom)
+
+    @property
+    def believed(self) -> bool:
+        return self.observations >= BELIEVED_OBSERVATIONS and self.located and self.fits
 
     def near(self, other: _Track) -> bool:
         """Whether both can be one rock."""
         offset = self.position - other.position
         if np.hypot(*offset) < MIN_GATE:
             return True
+        known = self.located or other.located
+        if not known and self.direction @ other.direction < SAME_SIDE:
+            return False
         joint = self.covariance + other.covariance
         return bool(offset @ np.linalg.solve(joint, offset) < GATE**2)
 
@@ -79,7 +98,7 @@ class RockTracks:
     def add(self, sightings: tuple[RockSighting, ...], stamp: int) -> None:
         """Add the sightings of one frame, taken at `stamp` [ns]."""
         for sighting in sightings:
-            seen = _Track.of(self._next_id, sighting, stamp)
+            seen = _Track(self._next_id, sighting, stamp)
             match = self._nearest(seen)
             if match is None:
                 self._tracks.append(seen)
@@ -88,7 +107,7 @@ class RockTracks:
                 match.join(seen)
                 self._merge(match)
 
-        self._believed = tuple(_rock(track) for track in self._tracks if _is_believed(track))
+        self._believed = tuple(_rock(track) for track in self._tracks if track.believed)
 
     def believed(self) -> tuple[Rock, ...]:
         """The rocks that enough frames agree on."""
@@ -108,11 +127,6 @@ class RockTracks:
                 first.join(second)
                 self._tracks.remove(second)
                 grown = first
-
-
-def _is_believed(track: _Track) -> bool:
-    worst = float(np.linalg.eigvalsh(track.covariance)[-1])
-    return track.observations >= BELIEVED_OBSERVATIONS and worst < BELIEVED_ERROR**2
 
 
 def _rock(track: _Track) -> Rock:

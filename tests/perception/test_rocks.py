@@ -4,13 +4,21 @@ import cv2
 import numpy as np
 import pytest
 
-from rover_common.dataflow import CameraFrame
+from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
+from rover_common.dataflow import CameraFrame, Rock
 from rover_common.geometry import Pose
+from rover_perception.classes import rock_mask
 from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
+from rover_perception.rock_detection import RockSighting, detect_rocks
+from rover_perception.rock_tracks import RockTracks
+from rover_perception.view import View
 from rover_simulator.renderer import Renderer, encode_jpeg
 from rover_simulator.terrain import Terrain
 from rover_simulator.world import World
+
+CAMERA_HEIGHT = ORIGIN_HEIGHT + ROVER_CAMERA.up  # [m]
+LEVEL = Pose(100.0, 100.0, 0.0)
 
 
 def hall(samples: list[tuple[float, float]]) -> World:
@@ -25,11 +33,15 @@ def rocks_seen(world: World, poses: list[Pose]) -> list[tuple[float, float]]:
     core = Perception(PerceptionConfig(image_lag=0))
     percept = None
     for index, pose in enumerate(poses):
-        jpeg = encode_jpeg(renderer.render(pose).image)
-        image = cv2.cvtColor(cv2.imdecode(np.frombuffer(jpeg, np.uint8), 1), cv2.COLOR_BGR2RGB)
+        image = through_jpeg(renderer.render(pose).image)
         percept = core.process(CameraFrame(1 + index * 40_000_000, pose, image))
     assert percept is not None
     return [(rock.x, rock.y) for rock in percept.rocks]
+
+
+def through_jpeg(image: np.ndarray) -> np.ndarray:
+    picture = cv2.imdecode(np.frombuffer(encode_jpeg(image), np.uint8), cv2.IMREAD_COLOR)
+    return cv2.cvtColor(picture, cv2.COLOR_BGR2RGB)
 
 
 def approach(x: float, y: float, tilt: float = 0.0) -> list[Pose]:
@@ -61,6 +73,69 @@ def test_two_rocks_side_by_side_are_two():
 def test_no_rock_where_there_is_none():
     turning = [Pose(90, 100, 0.2 * i) for i in range(32)]
     assert rocks_seen(hall([]), approach(115.0, 100.0) + turning) == []
+
+
+def sighting(origin: tuple[float, float], target: tuple[float, float, float]) -> RockSighting:
+    """A line of sight from the camera's height over a point [m] through another one."""
+    camera = np.array([*origin, CAMERA_HEIGHT])
+    line = np.array(target) - camera
+    distance = float(np.linalg.norm(line))
+    return RockSighting(camera, line / distance, 0.05 + 0.006 * distance)
+
+
+def tracked(sightings: list[RockSighting]) -> tuple[Rock, ...]:
+    tracks = RockTracks()
+    for index, one in enumerate(sightings):
+        tracks.add((one,), index)
+    return tracks.believed()
+
+
+def test_where_lines_to_two_rocks_cross_is_none():
+    # both are too far away to have a range; the crossing is 2 m from the first, 12 from the second
+    first = [sighting((84.0 + 0.1 * i, 41.2), (94.0, 42.2, 0.065)) for i in range(3)]
+    second = [sighting((104.4, 27.1 + 0.1 * i), (99.0, 37.5, 0.065)) for i in range(3)]
+    assert tracked(first + second) == ()
+
+
+def test_a_rock_seen_past_another_one_stays_itself():
+    near = [sighting((95.0 + 0.2 * i, 100.0), (100.0, 100.2, 0.065)) for i in range(22)]
+    far = [sighting((98.0, 95.0 + 0.2 * i), (100.0, 106.0, 0.065)) for i in range(30)]
+    found = tracked(near + far)
+    assert len(found) == 2
+    assert np.hypot(found[0].x - 100.0, found[0].y - 100.2) < 0.1
+    assert np.hypot(found[1].x - 100.0, found[1].y - 106.0) < 0.3
+
+
+def test_lines_that_do_not_meet_are_no_rock():
+    # yellow that keeps 1.5 m ahead of the camera, as what sticks to a wall's edge does
+    ahead = [
+        sighting((95.0 + 0.15 * i, 100.0), (96.5 + 0.15 * i, 100.0 + 0.4 * (-1) ** i, 0.065))
+        for i in range(8)
+    ]
+    assert tracked(ahead) == ()
+
+
+def test_dark_ground_tinted_by_a_sample_is_no_second_one():
+    view = View.of(ROVER_CAMERA, LEVEL)
+    tinted = 0
+    for left in range(150, 166):
+        image = np.full((160, 320, 3), (30, 25, 21), np.uint8)
+        image[98:102, left : left + 6] = (170, 143, 15)
+        image[102:] = (230, 210, 190)
+        image[90:97, left - 12 : left] = (70, 60, 50)
+        image = through_jpeg(image)
+        mask = rock_mask(image, view)
+        tinted += cv2.connectedComponents(mask, connectivity=8)[0] > 2
+        assert len(detect_rocks(image, mask, view, LEVEL).x) == 1
+    assert tinted > 3  # the file does that to it
+
+
+def test_two_samples_in_one_block_of_colour_are_two():
+    view = View.of(ROVER_CAMERA, LEVEL)
+    image = np.full((160, 320, 3), (230, 210, 190), np.uint8)
+    for left in (161, 169):
+        image[98:102, left : left + 5] = (170, 143, 15)
+    assert len(detect_rocks(image, rock_mask(image, view), view, LEVEL).x) == 2
 
 
 def test_recorded_samples_are_located(recordings):
