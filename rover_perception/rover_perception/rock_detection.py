@@ -55,11 +55,7 @@ def detect_rocks(
     """The blobs of the mask that are near and large enough to tell where they are."""
     if cv2.countNonZero(mask) < MIN_PIXELS:
         return RockSightings.none()
-    _, labels, stats, centroids = cv2.connectedComponentsWithStats(mask, connectivity=8)
-    stats, centroids = stats[1:], centroids[1:]  # the first is the background
-    if len(stats) > 1:
-        own = ~_is_tint(stats, _yellow(image, labels))
-        stats, centroids = stats[own], centroids[own]
+    stats, centroids = _blobs(image, mask)
     left, top, width, height, area = stats.T
     x, y = view.ground(centroids[:, 0] + 0.5, centroids[:, 1] + 0.5, MIDDLE_HEIGHT)
     distance = np.hypot(x - view.position[0], y - view.position[1])
@@ -83,6 +79,19 @@ def detect_rocks(
     return RockSightings(rocks, shown_x, shown_y)
 
 
+def _blobs(
+    image: NDArray[np.uint8], mask: NDArray[np.uint8]
+) -> tuple[NDArray[np.integer], NDArray[np.floating]]:
+    """Left, top, width, height and area (n, 5), and centroids (n, 2), of blobs that are no tint."""
+    _, labels, stats, centroids = cv2.connectedComponentsWithStats(mask, connectivity=8)
+    # the first is the background
+    boxes, middles = np.asarray(stats[1:], np.intp), np.asarray(centroids[1:], float)
+    if len(boxes) > 1:
+        own = ~_is_tint(boxes, _yellow(image, np.asarray(labels, np.intp)))
+        boxes, middles = boxes[own], middles[own]
+    return boxes, middles
+
+
 def _yellow(image: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDArray[np.floating]:
     """Mean green above blue (n,) [levels] of each labelled blob."""
     row, col = np.nonzero(labels)
@@ -91,9 +100,9 @@ def _yellow(image: NDArray[np.uint8], labels: NDArray[np.integer]) -> NDArray[np
     return np.bincount(label, above)[1:] / np.bincount(label)[1:]
 
 
-def _is_tint(stats: NDArray[np.integer], yellow: NDArray[np.floating]) -> NDArray[np.bool_]:
+def _is_tint(boxes: NDArray[np.integer], yellow: NDArray[np.floating]) -> NDArray[np.bool_]:
     """Whether each blob (n,) is much paler than another one in the same block of colour."""
-    corner, size = stats[:, :2], stats[:, 2:4]
+    corner, size = boxes[:, :2], boxes[:, 2:4]
     first = (corner - BLOCK_EDGE) // COLOR_BLOCK
     last = (corner + size - 1 + BLOCK_EDGE) // COLOR_BLOCK
     shared = ((first[:, None] <= last) & (first <= last[:, None])).all(axis=2)

@@ -14,7 +14,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rover_common.dataflow import Rock
 from rover_perception.rock_detection import MIDDLE_HEIGHT, RockSighting
