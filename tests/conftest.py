@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -16,6 +17,9 @@ os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ.setdefault(
     "FASTRTPS_DEFAULT_PROFILES_FILE", str(ROOT / "rover_bringup" / "config" / "fastdds.xml")
 )
+# What a shell runs in the background is deaf to Ctrl-C; the programs under test inherit from here.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 import pytest  # noqa: E402
 import rclpy  # noqa: E402
