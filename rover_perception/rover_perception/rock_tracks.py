@@ -33,17 +33,15 @@ LOCATED_ERROR = 0.4  # [m]
 LEAST_VARIANCE = 0.1**2  # [m^2]
 # A sample's middle is at 0.045 to 0.085 m, more when its lower part is buried in the wall's foot.
 HEIGHT_ERROR = 0.025  # [m] of the height of its middle
-PRIOR = np.diag([0.0, 0.0, 1.0, 0.0])  # a quadric, as the tracks' are
-PRIOR[2, 3] = PRIOR[3, 2] = -MIDDLE_HEIGHT
-PRIOR[3, 3] = MIDDLE_HEIGHT**2
-PRIOR /= HEIGHT_ERROR**2
+PLANE = np.array([0.0, 0.0, 1.0, -MIDDLE_HEIGHT]) / HEIGHT_ERROR
+PRIOR = np.outer(PLANE, PLANE)  # the quadric of a plane at that height
 
 
 class _Track:
     """What the lines of sight of one rock say together.
 
-    quadric: (4, 4) [1/m^2] of the weighted square distance of a point from all of the lines: for a
-    point p it is (p, 1)' quadric (p, 1). They add up (Garland and Heckbert, 1997).
+    quadric: (4, 4) of the square distance of a point from all of the lines, in standard deviations:
+    for a point p [m] it is (p, 1)' quadric (p, 1). They add up (Garland and Heckbert, 1997).
     """
 
     def __init__(self, id: int, sighting: RockSighting, stamp: int) -> None:
