@@ -14,7 +14,7 @@ setup(
     zip_safe=True,
     maintainer="Rover maintainers",
     maintainer_email="maintainers@rover.example",
-    description="Shared by the rover's packages: types, camera, grids, scoring, parts of nodes.",
+    description="Shared by the rover's packages: types, camera, grids, and what the nodes share.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={

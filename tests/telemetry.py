@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 
 from rover_common.geometry import Pose
-from rover_simulator.telemetry_format import format_telemetry
+from rover_simulator.wire.telemetry_format import format_telemetry
 
 START = Pose(99.67, 85.589, 0.9918)
 

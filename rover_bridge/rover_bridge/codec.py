@@ -23,8 +23,8 @@ from rover_bridge.errors import (
 )
 from rover_bridge.numbers import parse_number, parse_numbers
 from rover_common.camera import ROVER_CAMERA
-from rover_common.dataflow import Command, Telemetry
 from rover_common.geometry import Pose, wrap_angle
+from rover_common.types import Command, Telemetry
 from rover_common.vehicle import MAX_STEERING
 
 # Far beyond what the simulator can reach, near enough to catch a wrong separator or unit.

@@ -13,9 +13,9 @@ from tf2_msgs.msg import TFMessage
 
 from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
-from rover_common.conversions import header_of, time_of
-from rover_common.dataflow import Telemetry
 from rover_common.geometry import Pose, quaternion_from_pose
+from rover_common.ros.conversions import header_of, time_of
+from rover_common.types import Telemetry
 
 
 def status_of(stamp: int, telemetry: Telemetry) -> RoverStatus:

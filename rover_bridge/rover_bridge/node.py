@@ -26,7 +26,7 @@ from rover_bridge import conversions
 from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comma
 from rover_bridge.config import BridgeConfig
 from rover_bridge.errors import TelemetryError
-from rover_bridge.exchange import Answer, Exchange, Ticket
+from rover_bridge.pending_requests import Answer, Exchange, Ticket
 from rover_bridge.server import (
     Connected,
     ProtocolTrouble,
@@ -34,12 +34,13 @@ from rover_bridge.server import (
     SocketServer,
     TelemetryReceived,
 )
-from rover_common import frames, qos, topics
-from rover_common.conversions import NANOSECONDS, command_of, image_message_of, odometry_of
-from rover_common.dataflow import SAFE_COMMAND, Telemetry
-from rover_common.node_diagnostics import NodeDiagnostics
-from rover_common.node_parameters import declare_parameters
-from rover_common.node_runner import run_node
+from rover_common import frames, topics
+from rover_common.ros import qos
+from rover_common.ros.conversions import NANOSECONDS, command_of, image_message_of, odometry_of
+from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.parameters import declare_parameters
+from rover_common.ros.runner import run_node
+from rover_common.types import SAFE_COMMAND, Telemetry
 
 LOG_PERIOD = 5.0  # [s] between two lines about the same kind of trouble
 DEADLINE_LOOKS = 4  # looks for late answers per deadline

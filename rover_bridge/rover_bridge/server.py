@@ -17,7 +17,7 @@ import eventlet.wsgi
 import socketio
 from eventlet.hubs import trampoline
 
-from rover_bridge.dialects import BilingualServer, accept_older_queries
+from rover_bridge.legacy_engineio import BilingualServer, accept_older_queries
 
 MAX_MESSAGE_BYTES = 16 * 2**20  # a telemetry has about 10 kB; the library's default is 1 MB
 PING_TIMEOUT = 60.0  # [s] what the simulator is told, and ignores

@@ -1,1 +1,1 @@
-"""Shared by the rover's packages: types, camera, grids, scoring, parts of nodes."""
+"""Shared by the rover's packages: types, camera, grids, and what the nodes share."""

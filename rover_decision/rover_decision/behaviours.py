@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-from rover_common.dataflow import SAFE_COMMAND, Command
+from rover_common.types import SAFE_COMMAND, Command
 from rover_common.vehicle import ARM_FORWARD
-from rover_decision import motion
 from rover_decision.config import DecisionConfig
-from rover_decision.dataflow import Snapshot
 from rover_decision.explore import WALL_FOLLOWERS, mean_bearing
-from rover_decision.follower import at_end, bearing_of, bearing_to, follow
-from rover_decision.planning.dataflow import GoalKind, Way
 from rover_decision.rocks import Target
-from rover_decision.terrain import Terrain
+from rover_decision.types import Snapshot
+from rover_navigation import actuation as motion
+from rover_navigation.local_clearance import Terrain
+from rover_navigation.path_tracking import at_end, bearing_of, bearing_to, follow
+from rover_navigation.types import GoalKind, Way
 
 Action = tuple[Command, str]
 

@@ -11,9 +11,9 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rover_common import frames
-from rover_common.conversions import header_of
-from rover_decision.dataflow import Decision, Snapshot
+from rover_common.ros.conversions import header_of
 from rover_decision.memory import Memory
+from rover_decision.types import Decision, Snapshot
 
 BLUE, CYAN = ColorRGBA(b=1.0, g=0.4, a=1.0), ColorRGBA(b=1.0, g=1.0, a=0.8)
 GREEN, YELLOW = ColorRGBA(g=0.8, a=1.0), ColorRGBA(r=1.0, g=0.8, a=1.0)

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rover_decision import behaviours, motion, recovery
+from rover_decision import behaviours
 from rover_decision.behaviours import WAY_AHEAD, looks_at_goal, wanted_bearing
 from rover_decision.config import DecisionConfig
-from rover_decision.dataflow import Snapshot
 from rover_decision.explore import WALL_FOLLOWERS
 from rover_decision.memory import Memory
 from rover_decision.rocks import Target
 from rover_decision.states import Event, State
-from rover_decision.terrain import Terrain
+from rover_decision.types import Snapshot
+from rover_navigation import actuation as motion
+from rover_navigation import recovery
+from rover_navigation.local_clearance import Terrain
 
 PICKUP_START_SECONDS = 4.0  # [s] for a pickup to show in the telemetry after it was asked for
 CIRCLE_SECONDS = 10.0  # [s] of following the mean bearing

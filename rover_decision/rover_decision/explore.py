@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rover_common.dataflow import PolarArray
+from rover_common.types import PolarArray
 
 LEFT_BIAS = math.radians(10.0)
 

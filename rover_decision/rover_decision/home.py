@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from rover_common.dataflow import PolarArray
 from rover_common.geometry import Pose, wrap_angle
-from rover_decision.follower import remaining
-from rover_decision.planning.dataflow import NO_WAY, Plan, Way
+from rover_common.types import PolarArray
+from rover_navigation.path_tracking import remaining
+from rover_navigation.types import NO_WAY, Plan, Way
 
 BREADCRUMBS, SHORTEST_PATH, BEARING = METHODS = ("breadcrumbs", "shortest_path", "bearing")
 PATIENCE = 20.0  # [s] within which a way must have brought the rover nearer

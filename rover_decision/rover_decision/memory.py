@@ -6,25 +6,25 @@ import math
 from collections import deque
 from functools import partial
 
-from rover_common.dataflow import GridMap
 from rover_common.geometry import Pose
+from rover_common.types import GridMap
 from rover_common.vehicle import ARM_FORWARD
 from rover_decision.config import DecisionConfig
-from rover_decision.crumbs import Crumbs
-from rover_decision.dataflow import Progress, Snapshot
-from rover_decision.goals import GoalMemory
-from rover_decision.observers import (
+from rover_decision.rocks import RockMemory, Target
+from rover_decision.types import Progress, Snapshot
+from rover_navigation.breadcrumbs import Crumbs
+from rover_navigation.costmap import Blocked
+from rover_navigation.goal_history import GoalMemory
+from rover_navigation.monitors import (
     CircleMonitor,
     HeldMonitor,
     Odometer,
     ProgressMonitor,
     SearchedGround,
 )
-from rover_decision.planning.costmap import Blocked
-from rover_decision.planning.dataflow import GoalKind, PlanRequest
-from rover_decision.planning.desk import MakeRequest
-from rover_decision.recovery import Ladder, SafePoses
-from rover_decision.rocks import RockMemory, Target
+from rover_navigation.plan_scheduler import MakeRequest
+from rover_navigation.recovery import Ladder, SafePoses
+from rover_navigation.types import GoalKind, PlanRequest
 
 ON_ONE_SPOT = 25.0  # [s] of turning and looking; no more than two full turns are of use
 BLOCK_AHEAD, BLOCK_RADIUS = 1.0, 0.5  # [m] where there was no way on

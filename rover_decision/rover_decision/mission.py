@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 
-from rover_common.dataflow import SAFE_COMMAND, Command
-from rover_decision import behaviours, recovery
+from rover_common.types import SAFE_COMMAND, Command
+from rover_decision import behaviours
 from rover_decision.config import DecisionConfig
-from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.events import PLANS_UNPLACED, Situation, what_happened
 from rover_decision.home import BREADCRUMBS, WayHome, bearing_home
 from rover_decision.memory import Memory
-from rover_decision.planning.desk import MakeRequest
 from rover_decision.rocks import Target
 from rover_decision.states import Event, Machine, State
-from rover_decision.terrain import Terrain
+from rover_decision.types import Decision, Snapshot
+from rover_navigation import recovery
+from rover_navigation.local_clearance import Terrain
+from rover_navigation.plan_scheduler import MakeRequest
 
 RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
 TILT_AHEAD, TILT_RADIUS = 0.6, 0.5  # [m] where it tilted, for good

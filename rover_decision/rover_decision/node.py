@@ -27,19 +27,20 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-from rover_common import conversions, qos, topics
-from rover_common.node_diagnostics import NodeDiagnostics
-from rover_common.node_parameters import declare_parameters
-from rover_common.node_runner import run_node
-from rover_common.stamp_join import StampJoin
+from rover_common import topics
+from rover_common.ros import conversions, qos
+from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.parameters import declare_parameters
+from rover_common.ros.runner import run_node
+from rover_common.ros.sync import StampJoin
 from rover_decision.config import DecisionConfig
 from rover_decision.conversions import markers_of, mission_state_of
-from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.mission import Mission
 from rover_decision.node_action import RunMissionServer
-from rover_decision.planning.desk import PlanDesk
-from rover_decision.planning.planner import Planner
 from rover_decision.states import State
+from rover_decision.types import Decision, Snapshot
+from rover_navigation.plan_scheduler import PlanDesk
+from rover_navigation.planner import Planner
 
 FRAME_PARTS = {
     topics.ODOMETRY: Odometry,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rover_common.dataflow import Rock
 from rover_common.geometry import Pose, wrap_angle
+from rover_common.types import Rock
 
 SAME_ROCK = 1.5  # [m] a rock this near to where one was picked up is that one
 MOST_TRIES = 3  # what was not there three times is no rock

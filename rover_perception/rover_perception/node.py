@@ -16,17 +16,18 @@ from rclpy.node import Node
 from rover_interfaces.msg import PolarArray, RockDetectionArray
 from sensor_msgs.msg import Image, LaserScan
 
-from rover_common import conversions, frames, qos, topics
-from rover_common.conversions import MessageError
-from rover_common.dataflow import Percept
-from rover_common.node_diagnostics import NodeDiagnostics
-from rover_common.node_parameters import declare_parameters
-from rover_common.node_runner import run_node
-from rover_common.stamp_join import StampJoin
+from rover_common import frames, topics
+from rover_common.ros import conversions, qos
+from rover_common.ros.conversions import MessageError
+from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.parameters import declare_parameters
+from rover_common.ros.runner import run_node
+from rover_common.ros.sync import StampJoin
+from rover_common.types import Percept
+from rover_perception.camera.vision import vision_image
 from rover_perception.config import PerceptionConfig
-from rover_perception.frame_gate import FrameError
+from rover_perception.frame_validation import FrameError
 from rover_perception.perception import Perception
-from rover_perception.vision import vision_image
 
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
 PAUSE = 0.2  # [s] of wall time without a frame after which the map is brought up to date

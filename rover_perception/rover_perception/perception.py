@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.camera import ROVER_CAMERA
-from rover_common.dataflow import CameraFrame, GridMap, Percept, PolarArray
 from rover_common.grid import GridGeometry
-from rover_perception.classes import Columns, ground_columns, rock_mask
+from rover_common.types import CameraFrame, GridMap, Percept, PolarArray
+from rover_perception.camera.ground_projection import View
+from rover_perception.camera.segmentation import Columns, ground_columns, rock_mask
 from rover_perception.config import PerceptionConfig
-from rover_perception.evidence import EvidenceGrid
-from rover_perception.frame_gate import FrameGate
-from rover_perception.occupancy import occupancy_of
-from rover_perception.rock_detection import detect_rocks
-from rover_perception.rock_tracks import RockTracks
-from rover_perception.scan import free_scan, no_scan
-from rover_perception.view import View
+from rover_perception.frame_validation import FrameGate
+from rover_perception.mapping.evidence import EvidenceGrid
+from rover_perception.mapping.occupancy import occupancy_of
+from rover_perception.mapping.scan import free_scan, no_scan
+from rover_perception.tracking.rock_detection import detect_rocks
+from rover_perception.tracking.rock_tracks import RockTracks
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,13 @@ import signal
 import sys
 from pathlib import Path
 
-from rover_common.scoring import TruthError
-from rover_simulator.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_common.ground_truth import TruthError
 from rover_simulator.simulation import Simulation
-from rover_simulator.unity_client import UnityClient
-from rover_simulator.vehicle import STEP
-from rover_simulator.world import World, WorldError
-from rover_simulator.worldgen import generate_world, world_of_map
+from rover_simulator.vehicle.vehicle import STEP
+from rover_simulator.wire.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_simulator.wire.unity_client import UnityClient
+from rover_simulator.world.generator import generate_world, world_of_map
+from rover_simulator.world.world import World, WorldError
 
 FPS = 25.0  # frames per second unless others are asked for
 

@@ -10,15 +10,15 @@ import numpy as np
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
-from rover_simulator import boulders
-from rover_simulator.arm import Arm
-from rover_simulator.command_values import check_base64, parse_number
-from rover_simulator.fixed_turn import FixedTurn
-from rover_simulator.renderer import Renderer, encode_jpeg
-from rover_simulator.telemetry_format import format_telemetry
-from rover_simulator.terrain import Terrain
-from rover_simulator.vehicle import STEP, Controls, Vehicle
-from rover_simulator.world import World
+from rover_simulator.sensors.renderer import Renderer, encode_jpeg
+from rover_simulator.vehicle.arm import Arm
+from rover_simulator.vehicle.command_values import check_base64, parse_number
+from rover_simulator.vehicle.fixed_turn import FixedTurn
+from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
+from rover_simulator.wire.telemetry_format import format_telemetry
+from rover_simulator.world import boulders
+from rover_simulator.world.terrain import Terrain
+from rover_simulator.world.world import World
 
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
 INSETS = ("inset_image1", "inset_image2", "inset_image3")  # shown on its screen by the original

@@ -11,8 +11,8 @@ from telemetry import IMAGE, jpeg, telemetry
 
 from rover_bridge import errors
 from rover_bridge.codec import decode_telemetry, encode_drive
-from rover_common.dataflow import Command
 from rover_common.geometry import Pose, wrap_angle
+from rover_common.types import Command
 
 ANGLES = st.floats(-math.pi + 1e-3, math.pi - 1e-3)
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from rover_bridge.exchange import MAX_OPEN, PICKUP_TELEMETRIES, SILENCE, Exchange, Ticket
-from rover_common.dataflow import SAFE_COMMAND, Command
+from rover_bridge.pending_requests import MAX_OPEN, PICKUP_TELEMETRIES, SILENCE, Exchange, Ticket
+from rover_common.types import SAFE_COMMAND, Command
 
 DRIVE = Command(throttle=0.5)
 PICKUP = Command(brake=1.0, pickup=True)

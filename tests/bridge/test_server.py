@@ -29,7 +29,7 @@ from rover_bridge.server import (
     TelemetryReceived,
 )
 from rover_bridge.websocket_driver import apply_mask
-from rover_simulator.unity_client import ConnectionLostError, UnityClient
+from rover_simulator.wire.unity_client import ConnectionLostError, UnityClient
 
 Events = Queue[ServerEvent]
 

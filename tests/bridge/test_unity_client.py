@@ -9,7 +9,7 @@ import pytest
 from raw_server import Frame, RawServer
 from telemetry import telemetry
 
-from rover_simulator.unity_client import (
+from rover_simulator.wire.unity_client import (
     FRAGMENT_BYTES,
     ConnectionLostError,
     Event,
@@ -152,7 +152,7 @@ def test_a_websocket_ping_is_answered(wire):
 
 def test_the_next_ping_comes_a_period_after_the_pong(wire, monkeypatch):
     client, server = wire
-    monkeypatch.setattr("rover_simulator.unity_client.PING_PERIOD", 0.0)
+    monkeypatch.setattr("rover_simulator.wire.unity_client.PING_PERIOD", 0.0)
     assert server.frame() == Frame(True, 1, b"2")
     server.send("3")
     assert client.receive(0.05) is None

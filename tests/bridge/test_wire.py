@@ -16,9 +16,10 @@ from telemetry import jpeg, telemetry
 
 from rover_bridge.node import BridgeNode
 from rover_bridge.server import PortInUseError, SocketServer
-from rover_common import conversions, qos, topics
-from rover_common.dataflow import Command
-from rover_simulator.unity_client import OPEN, UnityClient
+from rover_common import topics
+from rover_common.ros import conversions, qos
+from rover_common.types import Command
+from rover_simulator.wire.unity_client import OPEN, UnityClient
 
 EXCHANGES = 1000
 COMMAND = Command(throttle=0.25, steering_angle=0.1)

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rover_common import conversions
-from rover_common.dataflow import Command, FreeScan, GridMap, PolarArray, Rock
 from rover_common.geometry import Pose
+from rover_common.ros import conversions
+from rover_common.types import Command, FreeScan, GridMap, PolarArray, Rock
 
 STAMP = 12_345_678_901_234
 

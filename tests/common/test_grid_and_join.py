@@ -11,8 +11,8 @@ from rclpy.node import Node
 
 from rover_common.config import parameter
 from rover_common.grid import GridGeometry
-from rover_common.node_parameters import ParameterError, declare_parameters
-from rover_common.stamp_join import StampJoin
+from rover_common.ros.parameters import ParameterError, declare_parameters
+from rover_common.ros.sync import StampJoin
 
 
 @given(st.integers(0, 399), st.integers(0, 399))

@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.dataflow import Command, FreeScan, GridMap, PolarArray, Rock, VehicleState
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
+from rover_common.types import Command, FreeScan, GridMap, PolarArray, Rock, VehicleState
 from rover_common.vehicle import (
     ARM_FORWARD,
     ARM_RADIUS,
@@ -20,12 +20,12 @@ from rover_common.vehicle import (
     WHEELBASE,
 )
 from rover_decision.config import DecisionConfig
-from rover_decision.dataflow import Decision, Snapshot
 from rover_decision.mission import Mission
-from rover_decision.planning.dataflow import NO_WAY, Goal, GoalKind, Plan, Way
-from rover_decision.planning.desk import PlanDesk
-from rover_decision.planning.planner import Planner
 from rover_decision.states import State
+from rover_decision.types import Decision, Snapshot
+from rover_navigation.plan_scheduler import PlanDesk
+from rover_navigation.planner import Planner
+from rover_navigation.types import NO_WAY, Goal, GoalKind, Plan, Way
 
 PERIOD = 0.05  # [s]
 PLAN_PERIOD = 0.5  # [s]

@@ -18,9 +18,10 @@ from rover_interfaces.msg import DriveCommand, PolarArray, RockDetectionArray, R
 from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 
-from rover_common import conversions, frames, qos, topics
+from rover_common import frames, topics
 from rover_common.geometry import Pose
-from rover_common.node_runner import EventsExecutor
+from rover_common.ros import conversions, qos
+from rover_common.ros.runner import EventsExecutor
 from rover_decision.node import DecisionNode
 
 PERIOD = 0.3  # [s] of frame time

@@ -6,13 +6,13 @@ import threading
 
 import pytest
 
-from rover_bringup import bench
-from rover_bringup.bench_decision import COLUMNS, Costs, Stopwatch, TimedMission, TimedPlanner
-from rover_bringup.inprocess import Loop
 from rover_decision.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 from rover_simulator.simulation import START_TIME, Simulation
-from rover_simulator.worldgen import generate_world
+from rover_simulator.world.generator import generate_world
+from rover_tools.benchmarks import bench
+from rover_tools.benchmarks.decision import COLUMNS, Costs, Stopwatch, TimedMission, TimedPlanner
+from rover_tools.evaluation.closed_loop import Loop
 
 SECONDS = 4.0
 FRAMES_PER_MAP = math.ceil(PerceptionConfig().map_period * 12.5)

@@ -7,9 +7,9 @@ import numpy as np
 from rover import MIDDLE, straight_plan
 
 from rover_common.geometry import Pose
-from rover_decision.goals import FORGET, LINGER, GoalMemory
 from rover_decision.home import WayHome
-from rover_decision.planning.dataflow import Goal, GoalKind
+from rover_navigation.goal_history import FORGET, LINGER, GoalMemory
+from rover_navigation.types import Goal, GoalKind
 
 
 def test_what_was_looked_at_in_vain_is_left_alone_and_the_more_of_it_the_farther_off():

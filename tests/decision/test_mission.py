@@ -7,19 +7,19 @@ import numpy as np
 import pytest
 from rover import MIDDLE, PERIOD, PlanarRover, fly, rock, snapshot, straight_plan
 
-from rover_common.dataflow import GridMap
 from rover_common.geometry import Pose
+from rover_common.types import GridMap
 from rover_common.vehicle import MAX_STEERING
 from rover_decision.config import DecisionConfig
 from rover_decision.events import GAP_SECONDS, PLANS_WITHOUT_GOAL
-from rover_decision.follower import follow
 from rover_decision.memory import Memory
 from rover_decision.mission import Mission
-from rover_decision.observers import CircleMonitor
-from rover_decision.planning.dataflow import Goal, GoalKind, Way
 from rover_decision.rocks import MOST_TRIES
 from rover_decision.states import State
-from rover_decision.terrain import Terrain
+from rover_navigation.local_clearance import Terrain
+from rover_navigation.monitors import CircleMonitor
+from rover_navigation.path_tracking import follow
+from rover_navigation.types import Goal, GoalKind, Way
 
 CONFIG = DecisionConfig()
 WALL_FOLLOWER = DecisionConfig(explorer="wall_follow_b")

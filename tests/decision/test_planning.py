@@ -12,18 +12,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rover import rock, straight_plan
 
-from rover_common.dataflow import EDGE, GridMap
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
-from rover_decision.crumbs import Crumbs
-from rover_decision.planning.costmap import Blocked, Costmap
-from rover_decision.planning.crumb_way import way_over_crumbs
-from rover_decision.planning.dataflow import GoalKind, PlanRequest, Searched
-from rover_decision.planning.desk import PlanDesk
-from rover_decision.planning.frontiers import find_frontiers
-from rover_decision.planning.planner import Planner
-from rover_decision.planning.tour import MOST_STOPS, tour_costs
-from rover_decision.planning.ways import SLOWEST, drivable_way
+from rover_common.map_encoding import EDGE
+from rover_common.types import GridMap
+from rover_navigation.breadcrumb_path import way_over_crumbs
+from rover_navigation.breadcrumbs import Crumbs
+from rover_navigation.costmap import Blocked, Costmap
+from rover_navigation.frontiers import find_frontiers
+from rover_navigation.path_smoothing import SLOWEST, drivable_way
+from rover_navigation.plan_scheduler import PlanDesk
+from rover_navigation.planner import Planner
+from rover_navigation.tour import MOST_STOPS, tour_costs
+from rover_navigation.types import GoalKind, PlanRequest, Searched
 
 HERE = Pose(20.0, 20.0, 0.0)
 NOWHERE = np.empty((0, 2))
@@ -191,7 +192,7 @@ def test_the_nearest_frontier_or_the_shortest_tour():
 
 
 def test_the_unsearched_is_the_goal_when_rocks_are_missing():
-    from rover_decision.observers import SearchedGround
+    from rover_navigation.monitors import SearchedGround
 
     searched = SearchedGround().so_far()
     assert plan(HALL, search=True, searched=searched).goal.kind is GoalKind.SEARCH

@@ -12,10 +12,10 @@ from rover_decision.config import DecisionConfig
 from rover_decision.events import PLANS_WITHOUT_GOAL
 from rover_decision.memory import ON_ONE_SPOT, STOPS_HERE
 from rover_decision.mission import Mission
-from rover_decision.observers import HELD_SECONDS, ProgressMonitor
-from rover_decision.planning.dataflow import NO_WAY
-from rover_decision.recovery import LADDER
 from rover_decision.states import State
+from rover_navigation.monitors import HELD_SECONDS, ProgressMonitor
+from rover_navigation.recovery import LADDER
+from rover_navigation.types import NO_WAY
 
 CONFIG = DecisionConfig()
 PLAN = straight_plan()

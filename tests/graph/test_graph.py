@@ -12,14 +12,15 @@ from rover_interfaces.msg import DriveCommand, MissionState
 from std_srvs.srv import Trigger
 
 from rover_bridge.node import BridgeNode
-from rover_common import conversions, qos, topics
+from rover_common import topics
 from rover_common.geometry import Pose
-from rover_common.scoring import navigable_cells
+from rover_common.map_encoding import navigable_cells
+from rover_common.ros import conversions, qos
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
-from rover_simulator.recording import read_recording
-from rover_simulator.replay import play
-from rover_simulator.unity_client import UnityClient
+from rover_simulator.recordings.recording import read_recording
+from rover_simulator.recordings.replay import play
+from rover_simulator.wire.unity_client import UnityClient
 
 FRAMES = 40
 

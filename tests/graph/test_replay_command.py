@@ -9,7 +9,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from rover_simulator.recorder import record_drive
+from rover_simulator.recordings.recorder import record_drive
 
 KEYS = {
     "frames", "frames_skipped", "frames_per_second", "latency_ms_p50", "latency_ms_p99",
@@ -20,7 +20,7 @@ KEYS = {
 def rover(*arguments: str) -> subprocess.CompletedProcess[str]:
     environment = {k: v for k, v in os.environ.items() if k != "ROS_DOMAIN_ID"}
     return subprocess.run(
-        [sys.executable, "-m", "rover_bringup.cli", *arguments],
+        [sys.executable, "-m", "rover_tools.cli.main", *arguments],
         capture_output=True,
         text=True,
         timeout=120,
@@ -70,7 +70,7 @@ def test_an_unknown_command_is_told():
 def test_a_run_that_is_ended_leaves_no_process(tmp_path):
     drive = record_drive(tmp_path / "drive", seed=1, frames=60)
     out = tmp_path / "result"
-    command = [sys.executable, "-m", "rover_bringup.cli", "replay", str(drive.folder)]
+    command = [sys.executable, "-m", "rover_tools.cli.main", "replay", str(drive.folder)]
     run = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True)
     assert run.stderr is not None
     assert run.stderr.readline().startswith("starting the graph")

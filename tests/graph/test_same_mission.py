@@ -10,15 +10,15 @@ import pytest
 
 from rover_bridge.codec import encode_drive
 from rover_bridge.node import BridgeNode
-from rover_bringup.inprocess import Loop
-from rover_common.dataflow import Command
 from rover_common.geometry import Pose
+from rover_common.types import Command
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
 from rover_simulator.simulation import Simulation
-from rover_simulator.unity_client import OPEN, UnityClient
-from rover_simulator.world import World
-from rover_simulator.worldgen import generate_world
+from rover_simulator.wire.unity_client import OPEN, UnityClient
+from rover_simulator.world.generator import generate_world
+from rover_simulator.world.world import World
+from rover_tools.evaluation.closed_loop import Loop
 
 FRAME_STEPS = 4  # 12.5 frames a second
 FRAMES = 330  # up to a pickup

@@ -6,10 +6,10 @@ from functools import partial
 import numpy as np
 from scene import draw
 
-from rover_bringup import bench_perception
-from rover_bringup.reference_recipe import ReferenceRecipe
 from rover_common.geometry import Pose
-from rover_simulator import recorder
+from rover_simulator.recordings import recorder
+from rover_tools.benchmarks import perception as bench_perception
+from rover_tools.benchmarks.baseline import ReferenceRecipe
 
 POSE = Pose(90.0, 100.5, 0.0)
 

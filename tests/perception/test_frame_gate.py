@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from rover_common.dataflow import CameraFrame
 from rover_common.geometry import Pose
-from rover_perception.frame_gate import FrameError, FrameGate
+from rover_common.types import CameraFrame
+from rover_perception.frame_validation import FrameError, FrameGate
 
 POSES = [Pose(90.0 + 0.1 * index, 100.0, 0.0) for index in range(6)]
 PERIOD = 40_000_000  # [ns]

@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scene import BRIGHT_SKY, SHADOWED_SAND, SKY, WALL, draw
 
-from rover_common.dataflow import EDGE, CameraFrame
 from rover_common.geometry import Pose
-from rover_common.scoring import navigable_cells
+from rover_common.map_encoding import EDGE, navigable_cells
+from rover_common.types import CameraFrame
 from rover_perception.config import PerceptionConfig
-from rover_perception.frame_gate import FrameError
+from rover_perception.frame_validation import FrameError
 from rover_perception.perception import Perception
 
 LIVE = PerceptionConfig(image_lag=0)

@@ -11,9 +11,10 @@ from rover_interfaces.msg import PolarArray, RockDetectionArray
 from scene import draw
 from sensor_msgs.msg import Image, LaserScan
 
-from rover_common import conversions, frames, qos, topics
+from rover_common import frames, topics
 from rover_common.geometry import Pose
-from rover_common.scoring import navigable_cells
+from rover_common.map_encoding import navigable_cells
+from rover_common.ros import conversions, qos
 from rover_perception import node as perception_node
 from rover_perception.node import PerceptionNode
 

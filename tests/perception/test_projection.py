@@ -10,7 +10,7 @@ from scene import ground_points
 
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose
-from rover_perception.view import View
+from rover_perception.camera.ground_projection import View
 
 TILT = st.floats(-0.25, 0.25)
 

@@ -5,17 +5,17 @@ import numpy as np
 import pytest
 
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
-from rover_common.dataflow import CameraFrame, Rock
 from rover_common.geometry import Pose
-from rover_perception.classes import rock_mask
+from rover_common.types import CameraFrame, Rock
+from rover_perception.camera.ground_projection import View
+from rover_perception.camera.segmentation import rock_mask
 from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
-from rover_perception.rock_detection import RockSighting, detect_rocks
-from rover_perception.rock_tracks import RockTracks
-from rover_perception.view import View
-from rover_simulator.renderer import Renderer, encode_jpeg
-from rover_simulator.terrain import Terrain
-from rover_simulator.world import World
+from rover_perception.tracking.rock_detection import RockSighting, detect_rocks
+from rover_perception.tracking.rock_tracks import RockTracks
+from rover_simulator.sensors.renderer import Renderer, encode_jpeg
+from rover_simulator.world.terrain import Terrain
+from rover_simulator.world.world import World
 
 CAMERA_HEIGHT = ORIGIN_HEIGHT + ROVER_CAMERA.up  # [m]
 LEVEL = Pose(100.0, 100.0, 0.0)
@@ -139,8 +139,8 @@ def test_two_samples_in_one_block_of_colour_are_two():
 
 
 def test_recorded_samples_are_located(recordings):
-    from rover_bringup.results import load_samples
-    from rover_simulator.recording import read_recording
+    from rover_simulator.recordings.recording import read_recording
+    from rover_tools.evaluation.results import load_samples
 
     core = Perception(PerceptionConfig(image_lag=0))
     percept = None

@@ -2,8 +2,8 @@
 
 import json
 
-from rover_bringup import bench_tours
-from rover_simulator.worldgen import generate_world
+from rover_simulator.world.generator import generate_world
+from rover_tools.benchmarks import tours as bench_tours
 
 
 def test_a_rough_tour_is_scored_against_the_truth(tmp_path, monkeypatch, capsys):

@@ -11,7 +11,7 @@ import pytest
 
 from rover_common.geometry import Pose
 from rover_simulator.simulation import Simulation
-from rover_simulator.world import World
+from rover_simulator.world.world import World
 
 HALL = np.zeros((200, 200), bool)
 HALL[80:121, 80:121] = True

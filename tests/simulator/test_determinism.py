@@ -15,7 +15,7 @@ from raw_server import HANDSHAKE, RawServer
 
 from rover_common.geometry import Pose
 from rover_simulator.simulation import Simulation
-from rover_simulator.world import World
+from rover_simulator.world.world import World
 
 SEED = 11
 FRAME_STEPS = 5  # 0.1 s, so that the arm's ten seconds are few frames

@@ -11,10 +11,10 @@ import pytest
 from raw_server import HANDSHAKE, PING, WAIT, RawServer, Wire
 
 from rover_common.geometry import Pose
-from rover_simulator.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
 from rover_simulator.simulation import Simulation
-from rover_simulator.unity_client import UnityClient
-from rover_simulator.world import World
+from rover_simulator.wire.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_simulator.wire.unity_client import UnityClient
+from rover_simulator.world.world import World
 
 FRAME = 0.04  # [s]
 MANUAL = '42["manual",{}]'

@@ -9,7 +9,7 @@ import pytest
 from telemetry import telemetry
 
 from rover_simulator.main import option_parser
-from rover_simulator.unity_client import ANSWERED_EVENTS
+from rover_simulator.wire.unity_client import ANSWERED_EVENTS
 
 README = Path(__file__).resolve().parents[2] / "rover_simulator" / "README.md"
 NO_DEFAULT = {"none": (None, float("inf")), "off": (False,)}

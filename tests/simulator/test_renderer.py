@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from rover_common.geometry import Pose
-from rover_simulator.profile import height_at, spread_at
-from rover_simulator.renderer import Renderer
-from rover_simulator.shading import sky_colors
-from rover_simulator.terrain import COUNT, SAMPLE_GROUND, SPACING, Terrain
-from rover_simulator.world import World
-from rover_simulator.worldgen import generate_world
+from rover_simulator.sensors.renderer import Renderer
+from rover_simulator.sensors.shading import sky_colors
+from rover_simulator.world.generator import generate_world
+from rover_simulator.world.profile import height_at, spread_at
+from rover_simulator.world.terrain import COUNT, SAMPLE_GROUND, SPACING, Terrain
+from rover_simulator.world.world import World
 
 HALL = np.zeros((200, 200), bool)
 HALL[60:141, 60:141] = True

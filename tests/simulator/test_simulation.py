@@ -8,13 +8,13 @@ import pytest
 from scipy import ndimage
 
 from rover_common.geometry import Pose
-from rover_common.scoring import TruthError
+from rover_common.ground_truth import TruthError
 from rover_common.vehicle import MAX_STEERING
-from rover_simulator.arm import Arm
 from rover_simulator.simulation import Simulation
-from rover_simulator.vehicle import STEP, Controls, Slope, Vehicle
-from rover_simulator.world import World, WorldError
-from rover_simulator.worldgen import generate_world, world_of_map
+from rover_simulator.vehicle.arm import Arm
+from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
+from rover_simulator.world.generator import generate_world, world_of_map
+from rover_simulator.world.world import World, WorldError
 
 FLAT = Slope()
 HALL = np.zeros((200, 200), bool)

@@ -6,7 +6,7 @@ import pytest
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
-from rover_simulator.vehicle import STEP, Controls, Slope, Vehicle
+from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
 
 FLAT = Slope()
 

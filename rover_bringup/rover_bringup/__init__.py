@@ -1,1 +1,0 @@
-"""Launch files, the parameters, the RViz view, and the rover command line."""

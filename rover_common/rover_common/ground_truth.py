@@ -1,0 +1,28 @@
+"""The true map of a world, as a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+
+class TruthError(ValueError):
+    """The ground truth cannot be read."""
+
+
+def load_truth(path: Path) -> NDArray[np.bool_]:
+    """Ground truth (200, 200): pixel [y, x] of the file, unflipped, non-zero = navigable.
+
+    Raises TruthError when the file is no image of that size.
+    """
+    image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    if image is None:
+        raise TruthError(f"{path}: not an image")
+    if image.shape != (200, 200):
+        raise TruthError(f"{path}: {image.shape[1]} x {image.shape[0]} pixels, expected 200 x 200")
+    if not image.any():
+        raise TruthError(f"{path}: no navigable cell")
+    return image > 0

@@ -1,0 +1,208 @@
+"""Messages to dataclasses and back, for what more than one node exchanges."""
+
+from __future__ import annotations
+
+from array import array
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Point, Quaternion
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rover_interfaces.msg import DriveCommand, RockDetection, RockDetectionArray, RoverStatus
+from rover_interfaces.msg import PolarArray as PolarArrayMsg
+from sensor_msgs.msg import Image, LaserScan
+from std_msgs.msg import Header
+
+from rover_common import frames
+from rover_common.camera import ORIGIN_HEIGHT
+from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
+from rover_common.types import (
+    CameraFrame,
+    Command,
+    FreeScan,
+    GridMap,
+    PolarArray,
+    Rock,
+    VehicleState,
+)
+
+NANOSECONDS = 1_000_000_000
+
+
+class MessageError(ValueError):
+    """A message that cannot be used: wrong size or encoding."""
+
+
+def stamp_of(time: Time) -> int:
+    """[ns]"""
+    return time.sec * NANOSECONDS + time.nanosec
+
+
+def time_of(stamp: int) -> Time:
+    sec, nanosec = divmod(stamp, NANOSECONDS)
+    return Time(sec=sec, nanosec=nanosec)
+
+
+def header_of(stamp: int, frame: str) -> Header:
+    return Header(stamp=time_of(stamp), frame_id=frame)
+
+
+def pose_of(odometry: Odometry) -> Pose:
+    position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
+    roll, pitch, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
+    return Pose(position.x, position.y, yaw, pitch, roll)
+
+
+def odometry_of(stamp: int, pose: Pose, speed: float) -> Odometry:
+    message = Odometry(header=header_of(stamp, frames.ODOM), child_frame_id=frames.BASE)
+    message.pose.pose.position = Point(x=pose.x, y=pose.y, z=ORIGIN_HEIGHT)
+    x, y, z, w = quaternion_from_pose(pose)
+    message.pose.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
+    message.twist.twist.linear.x = speed
+    return message
+
+
+def vehicle_state_of(odometry: Odometry, status: RoverStatus) -> VehicleState:
+    return VehicleState(
+        stamp=stamp_of(odometry.header.stamp),
+        pose=pose_of(odometry),
+        speed=odometry.twist.twist.linear.x,
+        near_sample=status.near_sample,
+        picking_up=status.picking_up,
+        sample_count=status.sample_count,
+    )
+
+
+def image_message_of(stamp: int, frame: str, image: np.ndarray) -> Image:
+    """An rgb8 Image of an array (height, width, 3) uint8."""
+    height, width, _ = image.shape
+    return Image(
+        header=header_of(stamp, frame),
+        height=height,
+        width=width,
+        encoding="rgb8",
+        is_bigendian=0,
+        step=3 * width,
+        data=array("B", image.tobytes()),
+    )
+
+
+def image_of(message: Image) -> np.ndarray:
+    """A read-only view (height, width, 3) uint8 of an rgb8 Image; raises MessageError."""
+    if message.encoding != "rgb8":
+        raise MessageError(f"image encoding '{message.encoding}', expected rgb8")
+    if message.step != 3 * message.width or len(message.data) != message.height * message.step:
+        raise MessageError("image data does not fit its height, width and step")
+    view = np.frombuffer(message.data, np.uint8)
+    return view.reshape(message.height, message.width, 3)
+
+
+def camera_frame_of(image: Image, odometry: Odometry) -> CameraFrame:
+    """Raises MessageError."""
+    return CameraFrame(stamp_of(image.header.stamp), pose_of(odometry), image_of(image))
+
+
+def polar_message_of(stamp: int, polar: PolarArray) -> PolarArrayMsg:
+    return PolarArrayMsg(
+        header=header_of(stamp, frames.BASE),
+        ranges=_float32(polar.ranges),
+        bearings=_float32(polar.bearings),
+    )
+
+
+def polar_of(message: PolarArrayMsg) -> PolarArray:
+    return PolarArray(
+        np.frombuffer(message.ranges, np.float32), np.frombuffer(message.bearings, np.float32)
+    )
+
+
+def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
+    return LaserScan(
+        header=header_of(stamp, frames.BASE),
+        angle_min=scan.angle_min,
+        angle_max=scan.angle_min + scan.angle_increment * (len(scan.ranges) - 1),
+        angle_increment=scan.angle_increment,
+        range_min=scan.range_min,
+        range_max=scan.range_max,
+        ranges=_float32(scan.ranges),
+    )
+
+
+def scan_of(message: LaserScan) -> FreeScan:
+    return FreeScan(
+        message.angle_min,
+        message.angle_increment,
+        message.range_min,
+        message.range_max,
+        np.frombuffer(message.ranges, np.float32),
+    )
+
+
+def rocks_message_of(stamp: int, rocks: tuple[Rock, ...], map_stamp: int) -> RockDetectionArray:
+    """`map_stamp` [ns]: of the newest maps at that frame."""
+    return RockDetectionArray(
+        header=header_of(stamp, frames.MAP),
+        map_stamp=time_of(map_stamp),
+        rocks=[
+            RockDetection(
+                id=rock.id,
+                position=Point(x=rock.x, y=rock.y, z=0.0),
+                covariance=rock.covariance,
+                observations=rock.observations,
+                last_seen=time_of(rock.last_seen),
+            )
+            for rock in rocks
+        ],
+    )
+
+
+def rocks_of(message: RockDetectionArray) -> tuple[Rock, ...]:
+    return tuple(
+        Rock(
+            id=rock.id,
+            x=rock.position.x,
+            y=rock.position.y,
+            covariance=tuple(float(c) for c in rock.covariance),  # type: ignore[arg-type]
+            observations=rock.observations,
+            last_seen=stamp_of(rock.last_seen),
+        )
+        for rock in message.rocks
+    )
+
+
+def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
+    message = OccupancyGrid(header=header_of(stamp, frames.MAP))
+    message.info.map_load_time = message.header.stamp
+    message.info.resolution = grid.resolution
+    message.info.height, message.info.width = grid.cells.shape
+    message.info.origin.position = Point(x=grid.origin_x, y=grid.origin_y, z=0.0)
+    message.data = array("b", grid.cells.tobytes())
+    return message
+
+
+def grid_of(message: OccupancyGrid) -> GridMap:
+    """A read-only view of the message's cells."""
+    info = message.info
+    cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
+    return GridMap(info.resolution, info.origin.position.x, info.origin.position.y, cells)
+
+
+def command_message_of(now: int, frame_stamp: int, command: Command) -> DriveCommand:
+    return DriveCommand(
+        header=header_of(now, frames.BASE),
+        frame_stamp=time_of(frame_stamp),
+        throttle=command.throttle,
+        brake=command.brake,
+        steering_angle=command.steering_angle,
+        pickup=command.pickup,
+    )
+
+
+def command_of(message: DriveCommand) -> tuple[int, Command]:
+    """The stamp [ns] of the frame that it answers, and the command."""
+    command = Command(message.throttle, message.brake, message.steering_angle, message.pickup)
+    return stamp_of(message.frame_stamp), command
+
+
+def _float32(values: np.ndarray) -> array:
+    return array("f", np.ascontiguousarray(values, np.float32).tobytes())

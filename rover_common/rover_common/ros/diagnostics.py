@@ -1,0 +1,58 @@
+"""Counters of a node, published as /diagnostics."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+from rover_common.ros import qos
+
+PERIOD = 0.25  # [s] between looks; published once a second, and at once when the level changes
+LOOKS_PER_PUBLISH = 4
+
+
+class NodeDiagnostics:
+    """Publishes the node's counters and whether its peers are connected.
+
+    `peers` maps a peer's name to a function that tells whether it is connected; until all are, the
+    level is WARN. `counts` is the node's own: count events with `diagnostics.counts["name"] += 1`.
+    """
+
+    def __init__(self, node: Node, peers: Mapping[str, Callable[[], bool]]) -> None:
+        self.counts: Counter[str] = Counter()
+        self._node = node
+        self._peers = dict(peers)
+        self._level: Any = None
+        self._looks = 0
+        self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+        # Wall time: it must go on while the simulated clock stands still.
+        self._timer = node.create_timer(
+            PERIOD, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+
+    def _look(self) -> None:
+        missing = [name for name, connected in self._peers.items() if not connected()]
+        level = DiagnosticStatus.WARN if missing else DiagnosticStatus.OK
+        self._looks += 1
+        if level != self._level or self._looks >= LOOKS_PER_PUBLISH:
+            self._looks = 0
+            self._level = level
+            self._publish(level, missing)
+
+    def _publish(self, level: Any, missing: list[str]) -> None:
+        message = DiagnosticArray()
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.status = [
+            DiagnosticStatus(
+                level=level,
+                name=self._node.get_fully_qualified_name(),
+                message="waiting for " + ", ".join(missing) if missing else "connected",
+                values=[KeyValue(key=k, value=str(v)) for k, v in sorted(self.counts.items())],
+            )
+        ]
+        self._publisher.publish(message)

@@ -1,0 +1,91 @@
+"""Frontiers: where known free ground borders on the unknown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from rover_navigation.costmap import Costmap
+
+# [cells] 2.5 m: no way on is as narrow, and what a shorter border hides is not worth the way there
+SMALLEST = 10
+# [m] of ground that may hide between the foot of a wall as seen from afar and the wall
+STRIP_DEPTH = 0.75
+# of an unknown patch amid known ground: the rest of it is the rock that hid it
+PATCH_SHARE = 0.5
+SQUARE = np.ones((3, 3), np.uint8)
+
+
+@dataclass(frozen=True)
+class Frontier:
+    """One connected border."""
+
+    resolution: float  # [m] of its cells
+    x: NDArray[np.float64]  # (n,) [m] map frame, its cells
+    y: NDArray[np.float64]  # (n,) [m]
+    open: NDArray[np.bool_]  # (n,) not just the foot of a wall that was seen from afar
+    behind: NDArray[np.float64]  # (n,) [m^2] of connected unknown ground; inf: no end known
+
+    @property
+    def length(self) -> int:
+        """[cells]"""
+        return len(self.x)
+
+    @property
+    def leads_on(self) -> bool:
+        """Whether there may be a way on behind it; else it is a strip along a wall."""
+        return int(np.count_nonzero(self.open)) >= SMALLEST
+
+    @property
+    def hides(self) -> float:
+        """[m^2] of ground that there may be behind it; inf where no end of it is known."""
+        patch = PATCH_SHARE * float(self.behind.max())
+        return patch if self.leads_on else min(patch, self.length * self.resolution * STRIP_DEPTH)
+
+
+def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Frontier]:
+    """All borders of some length, the longest first; `visited` (n, 3) [m] as for near_visited."""
+    # Unknown slivers of less than three cells vanish: they are grazed walls.
+    unknown = np.asarray(
+        cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE), np.uint8
+    )
+    border = costmap.free & (cv2.dilate(unknown, SQUARE) > 0)
+    rows, cols = np.nonzero(border)
+    border[rows, cols] = ~near_visited(*costmap.geometry.center_of(rows, cols), visited)
+    labels, count = ndimage.label(border, structure=SQUARE)
+    if count == 0:
+        return []
+    rows, cols = np.nonzero(border)
+    order = np.argsort(labels[rows, cols], kind="stable")
+    ends = np.cumsum(np.bincount(labels[rows, cols], minlength=count + 1)[1:])
+    rows, cols = rows[order], cols[order]
+    nothing = (costmap.unknown & ~costmap.edge).astype(np.uint8)
+    is_open = cv2.dilate(nothing, SQUARE)[rows, cols] > 0
+    behind = cv2.dilate(_areas(unknown, costmap.geometry.resolution), SQUARE)[rows, cols]
+    columns = (*costmap.geometry.center_of(rows, cols), is_open, behind)
+    parts = zip(*(np.split(column, ends[:-1]) for column in columns), strict=True)
+    frontiers = [Frontier(costmap.geometry.resolution, *part) for part in parts]
+    large = [frontier for frontier in frontiers if frontier.length >= SMALLEST]
+    return sorted(large, key=lambda frontier: -frontier.length)
+
+
+def _areas(unknown: NDArray[np.uint8], resolution: float) -> NDArray[np.float32]:
+    """For each unknown cell the area [m^2] of its connected region, inf at the map's border."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(unknown, connectivity=4)
+    areas = stats[:, cv2.CC_STAT_AREA].astype(np.float32) * np.float32(resolution**2)
+    for edge in (labels[0], labels[-1], labels[:, 0], labels[:, -1]):
+        areas[edge] = np.inf
+    areas[0] = 0.0
+    return np.asarray(areas[labels])
+
+
+def near_visited(
+    x: NDArray[np.float64], y: NDArray[np.float64], visited: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Whether points (m,) [m] lie in the discs (n, 3) of places visited: x, y, radius [m]."""
+    away = np.hypot(x - visited[:, :1], y - visited[:, 1:2])
+    return np.asarray((away < visited[:, 2:]).any(axis=0))

@@ -1,0 +1,1 @@
+"""From classified ground to maps and scans."""

@@ -1,0 +1,1 @@
+"""From rock pixels to rock tracks."""

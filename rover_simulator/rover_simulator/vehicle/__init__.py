@@ -1,0 +1,1 @@
+"""The vehicle: motion, tilt, arm."""

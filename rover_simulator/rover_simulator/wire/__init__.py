@@ -1,0 +1,1 @@
+"""The simulator's end of the Socket.IO connection."""

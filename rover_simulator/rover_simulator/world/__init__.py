@@ -1,0 +1,1 @@
+"""Worlds: terrain, samples, how they are generated and loaded."""

@@ -1,0 +1,125 @@
+"""The ground of a world as a height field, from its map and the measured wall profile."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from rover_simulator.vehicle.vehicle import Slope
+from rover_simulator.world.boulders import boulder_cells
+from rover_simulator.world.profile import MAP_MARGIN, height_at, spread_at
+
+SPACING = 0.390625  # [m] between heights, 513 of them over 200 m, as in the original
+COUNT = 513
+FINE = 8  # distances are measured on a grid of 1/8 m
+# The relief: shares of noise of these widths [m]. Skylines of the original are round over metres.
+RELIEF_WIDTHS, RELIEF_SHARES = (1.5, 5.0, 15.0), (0.15, 0.5, 1.0)
+# [m] The original's samples stand at the floor's height, also on the foot of a wall, but somebody
+# chose their places so that they show: only 4 of 33 are where the ground is higher than this.
+SAMPLE_GROUND = 0.08
+SAMPLE_REACH = (SPACING * math.sqrt(2), 2.0)  # [m] around one that is as low, and that is lowered
+NO_SAMPLES = np.empty((0, 2))
+
+
+@dataclass(frozen=True)
+class Terrain:
+    heights: NDArray[np.float32]  # (513, 513) [m], [y, x]
+    outside: NDArray[np.float32]  # (1600, 1600) [m] from the flat floor's edge, negative inside
+
+    @classmethod
+    def of(
+        cls,
+        navigable: NDArray[np.bool_],
+        seed: int = 0,
+        relief: NDArray[np.floating] | None = None,
+        samples: NDArray[np.floating] = NO_SAMPLES,
+    ) -> Terrain:
+        """Build it from the median profile of walls. Boulders stand on its floor.
+
+        relief: factors (513, 513) of the heights; without it they are drawn from the seed, with
+        the spread that was measured. samples: points (n, 2) [m], around which it is low.
+        """
+        floor = _floor(navigable | boulder_cells(navigable))
+        inside = ndimage.distance_transform_edt(floor) / FINE
+        outward = ndimage.distance_transform_edt(~floor) / FINE
+        outside = np.where(floor, -inside, outward).astype(np.float32)
+        at = np.arange(COUNT) * SPACING
+        distance = _sample(outside, *np.meshgrid(at, at))
+        if relief is None:
+            relief = np.exp(spread_at(distance) * _noise(seed))
+        heights = height_at(distance) * relief
+        for x, y in samples:
+            heights = _lowered(heights, float(x), float(y))
+        return cls(heights.astype(np.float32), outside)
+
+    def outside_at(self, x: NDArray, y: NDArray) -> NDArray[np.float32]:
+        """Distance [m] outside of the flat floor at points [m]."""
+        return _sample(self.outside, x, y)
+
+    def height_at(self, x: NDArray, y: NDArray) -> NDArray[np.float32]:
+        """Height [m] of the ground at points [m]."""
+        at = [np.asarray(y) / SPACING, np.asarray(x) / SPACING]
+        return ndimage.map_coordinates(self.heights, at, order=1, mode="nearest")
+
+    def slope_at(self, x: float, y: float) -> Slope:
+        """Rise of the ground at a point [m], over half a metre as the wheels feel it."""
+        reach = 0.25
+        east, west, north, south = self.height_at(
+            np.array([x + reach, x - reach, x, x]), np.array([y, y, y + reach, y - reach])
+        )
+        return Slope(float(east - west) / (2 * reach), float(north - south) / (2 * reach))
+
+    def triangles(self) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+        """Vertices (n, 3) [m] and triangles (m, 3) of the height field, its flat parts in two."""
+        at = (np.arange(COUNT) * SPACING).astype(np.float32)
+        x, y = np.meshgrid(at, at)
+        vertices = np.stack([x, y, self.heights], axis=-1).reshape(-1, 3)
+        corner = (np.arange(COUNT - 1)[:, None] * COUNT + np.arange(COUNT - 1)).ravel()
+        lower = np.stack([corner, corner + 1, corner + COUNT], axis=1)
+        upper = np.stack([corner + 1, corner + COUNT + 1, corner + COUNT], axis=1)
+        triangles = np.concatenate([lower, upper])
+        rises = (self.heights.ravel()[triangles] > 0.0).any(axis=1)
+        corners = np.array([0, COUNT - 1, COUNT * COUNT - 1, COUNT * (COUNT - 1)])
+        floor = vertices[corners] * np.array([1, 1, 0], np.float32)
+        halves = len(vertices) + np.array([[0, 1, 2], [0, 2, 3]])
+        return (
+            np.concatenate([vertices, floor]),
+            np.concatenate([triangles[rises], halves]).astype(np.int32),
+        )
+
+
+def _lowered(heights: NDArray[np.float64], x: float, y: float) -> NDArray[np.float64]:
+    """The heights, no higher than a sample's ground at a point [m] and less so away from it."""
+    at = np.arange(COUNT) * SPACING
+    away = np.hypot(*np.meshgrid(at - x, at - y))
+    near, far = SAMPLE_REACH
+    share = np.clip((far - away) / (far - near), 0.0, 1.0)
+    return heights + share * (np.minimum(heights, SAMPLE_GROUND) - heights)
+
+
+def _noise(seed: int) -> NDArray[np.float64]:
+    """Smooth noise (513, 513) of standard deviation 1."""
+    white = np.random.default_rng(seed).standard_normal((COUNT, COUNT))
+    total = np.zeros((COUNT, COUNT))
+    for width, share in zip(RELIEF_WIDTHS, RELIEF_SHARES, strict=True):
+        smooth = ndimage.gaussian_filter(white, width / SPACING, mode="wrap", truncate=3.0)
+        total += share * smooth / smooth.std()
+    return total / total.std()
+
+
+def _floor(navigable: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The flat floor on the fine grid: the cells and the margin around them, with rounded edges."""
+    cells = np.kron(navigable, np.ones((FINE, FINE), bool))
+    beyond = ndimage.distance_transform_edt(~cells) / FINE
+    grown = (beyond < MAP_MARGIN + 0.3).astype(np.float32)
+    return ndimage.gaussian_filter(grown, 0.4 * FINE) > 0.5 + 0.2
+
+
+def _sample(grid: NDArray[np.float32], x: NDArray, y: NDArray) -> NDArray[np.float32]:
+    """Bilinear value of the fine grid, whose cell centres lie at (i + 0.5) / FINE [m]."""
+    at = [np.asarray(y) * FINE - 0.5, np.asarray(x) * FINE - 0.5]
+    return ndimage.map_coordinates(grid, at, order=1, mode="nearest")

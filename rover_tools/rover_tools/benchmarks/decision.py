@@ -1,0 +1,213 @@
+"""`rover bench decision`: what deciding costs per frame, and what each plan costs.
+
+Whole missions in one process without ROS. Plans are made in their thread as always, but the loop
+waits for each before it goes on, so that no plan is timed while the simulator and perception take
+the interpreter from it. `wall` is what a frame or a plan had to wait, `thread` what its thread
+worked: on a busy machine the former counts other programs as well.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from rover_decision.config import DecisionConfig
+from rover_decision.mission import Mission
+from rover_decision.types import Decision, Snapshot
+from rover_navigation.plan_scheduler import MakeRequest
+from rover_navigation.planner import Planner
+from rover_navigation.types import Plan, PlanRequest
+from rover_simulator.main import fps_option, frame_steps_of
+from rover_simulator.simulation import START_TIME, Simulation
+from rover_simulator.world.generator import generate_world, world_of_map
+from rover_tools.cli.errors import run_command
+from rover_tools.evaluation.closed_loop import Loop
+from rover_tools.evaluation.results import Result
+from rover_tools.evaluation.strategy import SYNTAX, Strategy
+from rover_tools.runner.run import note, result_folder
+
+SEEDS = (5,)
+FPS = 12.5  # [1/s] half of the usual rate, in half of the time: a frame costs the same
+PLAN_LIMIT = 50.0  # [ms] within which a plan should be made
+COLUMNS = {"median": 50, "p99": 99, "max": 100}  # percentiles
+
+
+class Stopwatch:
+    """Times of something that is done again and again."""
+
+    def __init__(self) -> None:
+        self.laps: list[tuple[float, float]] = []  # [s] wall, thread
+
+    @contextmanager
+    def lap(self, goes_on: bool = False) -> Iterator[None]:
+        """Time what is done inside; `goes_on`: as a part of the lap before."""
+        wall, thread = self.laps.pop() if goes_on else (0.0, 0.0)
+        wall_start, thread_start = time.perf_counter(), time.thread_time()
+        try:
+            yield
+        finally:
+            thread += time.thread_time() - thread_start
+            self.laps.append((wall + time.perf_counter() - wall_start, thread))
+
+    def result(self, name: str) -> Result:
+        """Percentiles [ms]."""
+        times = np.array(self.laps) * 1000.0
+        return {
+            f"{name}{clock}_ms_{column}": round(float(np.percentile(times[:, index], percent)), 3)
+            for index, clock in enumerate(("", "_thread"))
+            for column, percent in COLUMNS.items()
+        }
+
+
+class Costs:
+    """Of all missions flown."""
+
+    def __init__(self) -> None:
+        self.frames, self.plans = Stopwatch(), Stopwatch()
+        self.planned = threading.Event()  # unset from the request of a plan until it is made
+        self.planned.set()
+
+
+class TimedMission(Mission):
+    """A mission with its frames timed: a frame's request for a plan is a part of it."""
+
+    def __init__(self, config: DecisionConfig, costs: Costs) -> None:
+        super().__init__(config)
+        self._costs = costs
+
+    def tick(self, snapshot: Snapshot) -> Decision:
+        with self._costs.frames.lap():
+            return super().tick(snapshot)
+
+    def plan_request(self, snapshot: Snapshot) -> MakeRequest:
+        self._costs.planned.clear()
+        with self._costs.frames.lap(goes_on=True):
+            return super().plan_request(snapshot)
+
+
+class TimedPlanner(Planner):
+    """A planner with its plans timed, in the thread that makes them."""
+
+    def __init__(self, explorer: str, costs: Costs) -> None:
+        super().__init__(explorer)
+        self._costs = costs
+
+    def plan(self, request: PlanRequest) -> Plan:
+        try:
+            with self._costs.plans.lap():
+                return super().plan(request)
+        finally:
+            self._costs.planned.set()
+
+
+def main(arguments: list[str]) -> int:
+    """Returns the exit code."""
+    options = _parser().parse_args(arguments)
+    return run_command("bench decision", lambda: _bench(options))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="rover bench decision", description=__doc__)
+    add = parser.add_argument
+    add("--seeds", type=int, nargs="+", default=SEEDS, help="of the canyons (default: %(default)s)")
+    add("--map", type=Path, metavar="PNG", help="this map's canyon instead; seeds draw its samples")
+    add("--size", type=float, default=1.0,
+        help="of generated canyons, 1 as large as the original (default: %(default)s)")  # fmt: skip
+    add("--strategy", "--explorer", type=Strategy.parse, default=Strategy(), metavar="NAME",
+        help=f"{SYNTAX} (default: %(default)s)")  # fmt: skip
+    add("--fps", type=fps_option, default=FPS, help="of the camera (default: %(default)s)")
+    add("--time-limit", type=float, default=900.0, metavar="S",
+        help="[s] of simulated time for each mission (default: %(default)s)")  # fmt: skip
+    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
+    add("--json", action="store_true", help="print the result as one JSON object")
+    return parser
+
+
+def _bench(options: argparse.Namespace) -> None:
+    cv2.setNumThreads(1)
+    folder = result_folder("bench-decision", options.out)
+    costs = Costs()
+    missions = []
+    for seed in options.seeds:
+        missions.append(_fly(seed, options, costs))
+        note(_line(missions[-1]))
+    result = {**summary_of(costs), "missions": missions}
+    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
+    print(json.dumps(result) if options.json else _table(result))
+    note(f"figures in {folder}")
+
+
+def _fly(seed: int, options: argparse.Namespace, costs: Costs) -> Result:
+    """One mission to its end; its costs are added to the others'."""
+    world = (
+        generate_world(seed, options.size)
+        if options.map is None
+        else world_of_map(options.map, seed)
+    )
+    simulation = Simulation(world, seed, frame_steps_of(options.fps))
+    config = options.strategy.config()
+    frames, plans = len(costs.frames.laps), len(costs.plans.laps)
+    loop = Loop(
+        simulation,
+        config,
+        mission=TimedMission(config, costs),
+        planner=TimedPlanner(config.explorer, costs),
+    )
+    try:
+        end = loop.run(START_TIME + options.time_limit, lambda _: costs.planned.wait())
+    finally:
+        loop.close()
+    return {
+        "world": world.name,
+        "seed": seed,
+        "strategy": str(options.strategy),
+        "done": end.done,
+        "time": round(simulation.time - START_TIME, 1),
+        "frames": len(costs.frames.laps) - frames,
+        "plans": len(costs.plans.laps) - plans,
+        "plan_thread_ms_max": round(1000.0 * max(lap[1] for lap in costs.plans.laps[plans:]), 3),
+    }
+
+
+def summary_of(costs: Costs) -> Result:
+    """Counts, times [ms] by both clocks, and the share [%] of plans beyond the limit."""
+    slow = np.array(costs.plans.laps) * 1000.0 > PLAN_LIMIT
+    wall, thread = (100.0 * slow.mean(axis=0)).tolist()
+    return {
+        "frames": len(costs.frames.laps),
+        **costs.frames.result("tick"),
+        "plans": len(costs.plans.laps),
+        **costs.plans.result("plan"),
+        "plan_over_50_ms_percent": round(wall, 2),
+        "plan_thread_over_50_ms_percent": round(thread, 2),
+    }
+
+
+def _table(result: Result) -> str:
+    lines = [f"{'[ms]':16}" + "".join(f"{column:>9}" for column in COLUMNS)]
+    for title, name in (("frame", "tick"), ("plan", "plan")):
+        for clock, infix in (("wall", ""), ("thread", "_thread")):
+            times = (result[f"{name}{infix}_ms_{column}"] for column in COLUMNS)
+            lines.append(f"{title + ', ' + clock:16}" + "".join(f"{time:9.3f}" for time in times))
+    wall, thread = (result[f"plan{clock}_over_50_ms_percent"] for clock in ("", "_thread"))
+    lines += [
+        "",
+        f"plans over {PLAN_LIMIT:.0f} ms: {wall} % by the wall's clock, {thread} % by the thread's",
+        *map(_line, result["missions"]),
+    ]
+    return "\n".join(lines)
+
+
+def _line(row: Result) -> str:
+    return (
+        f"{row['world']}, {row['strategy']}: {'home' if row['done'] else 'given up'} after "
+        f"{row['time']} s, {row['frames']} frames, {row['plans']} plans"
+    )

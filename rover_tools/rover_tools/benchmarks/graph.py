@@ -1,0 +1,79 @@
+"""`rover bench graph`: telemetry to command through the three processes, over the wire and DDS."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import json
+from dataclasses import replace
+from pathlib import Path
+
+from rover_simulator.recordings.recording import Recording
+from rover_simulator.recordings.replay import play
+from rover_simulator.wire.unity_client import UnityClient
+from rover_tools.cli.errors import run_command
+from rover_tools.cli.replay import OVERRIDES
+from rover_tools.evaluation.recordings import example_recording
+from rover_tools.evaluation.results import Result, percentile_ms, summary
+from rover_tools.runner.run import Run, note, result_folder, running_graph
+
+WARM_UP = 50  # frames not counted: first use of libraries, caches, buffers
+
+
+def main(arguments: list[str]) -> int:
+    """Returns the exit code."""
+    options = _parser().parse_args(arguments)
+    return run_command("bench graph", lambda: _bench(options))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="rover bench graph", description=__doc__)
+    add = parser.add_argument
+    add("--frames", type=int, default=1000, help="frames that count (default: %(default)s)")
+    add("--recording", type=Path, metavar="DIR", help="frames to use (default: a recorded run"
+        " where there is one, else frames of the embedded simulator)")  # fmt: skip
+    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
+    add("--json", action="store_true", help="print the result as one JSON object")
+    return parser
+
+
+def _bench(options: argparse.Namespace) -> None:
+    folder = result_folder("bench-graph", options.out)
+    recording, source = example_recording(options.recording, folder)
+    with running_graph(folder, OVERRIDES) as run:
+        result = {"source": source, **measure(run, recording, options.frames)}
+    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
+    print(json.dumps(result) if options.json else summary(result))
+    note(f"one exchange in flight, {WARM_UP} frames of warm-up not counted; results in {folder}")
+
+
+def measure(run: Run, recording: Recording, count: int) -> Result:
+    """Exchange `count` frames, one at a time, after a warm-up."""
+    client = UnityClient(run.host, run.port)
+    client.connect(timeout=10.0)
+    try:
+        playback = play(_repeated(recording, WARM_UP + count), client, in_flight=1)
+    finally:
+        client.close()
+    run.processes.check()
+    latencies = playback.latencies[WARM_UP:]
+    return {
+        "frames": len(latencies),
+        "latency_ms_p50": percentile_ms(latencies, 50),
+        "latency_ms_p90": percentile_ms(latencies, 90),
+        "latency_ms_p99": percentile_ms(latencies, 99),
+        "latency_ms_max": percentile_ms(latencies, 100),
+        "frames_per_second": round(len(latencies) / sum(latencies), 1),
+        "counts": run.watch.counts(),
+    }
+
+
+def _repeated(recording: Recording, count: int) -> Recording:
+    """The recording over and over, with time going on, `count` frames in all."""
+    length = recording.frames[-1].time + 0.1
+    frames = (
+        replace(frame, time=frame.time + lap * length)
+        for lap in itertools.count()
+        for frame in recording.frames
+    )
+    return Recording(tuple(itertools.islice(frames, count)), 0)

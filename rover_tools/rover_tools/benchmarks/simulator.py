@@ -1,0 +1,143 @@
+"""`rover bench simulator`: the embedded simulator against recordings of the original."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from rover_common.geometry import wrap_angle
+from rover_common.ground_truth import load_truth
+from rover_simulator.recordings.recording import RecordedFrame, read_recording
+from rover_simulator.simulation import Simulation
+from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
+from rover_simulator.world.generator import generate_world
+from rover_tools.benchmarks.pictures import COLLISION_TILT, RUNS, picture_agreement
+from rover_tools.benchmarks.wire_speed import wire_speed
+from rover_tools.cli.errors import run_command
+from rover_tools.evaluation.recordings import data_folder
+from rover_tools.evaluation.results import Result, summary
+from rover_tools.runner.run import note
+
+WINDOW = 5.0  # [s]
+SPEED_FRAMES = 200
+SEED = 3  # of the world that speed and memory are measured in
+STEERING_DEG, THROTTLE = "3", "0.3"  # of the drive
+# A process of its own: what this one has loaded and measured before does not count.
+FRESH = "from rover_tools.benchmarks.simulator import fresh_simulation as fresh; fresh()"
+
+
+def main(arguments: list[str]) -> int:
+    """Returns the exit code."""
+    parser = argparse.ArgumentParser(prog="rover bench simulator", description=__doc__)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument(
+        "--picture", type=Path, metavar="FILE", help="draw recorded frames beside rendered ones"
+    )
+    options = parser.parse_args(arguments)
+    return run_command("bench simulator", lambda: _bench(options.json, options.picture))
+
+
+def _bench(as_json: bool, picture: Path | None) -> None:
+    result: Result = {}
+    data = data_folder()
+    truth = data / "udacity" / "calibration_images" / "map_bw.png"
+    if truth.exists():
+        result |= motion_errors(data) | picture_agreement(data, load_truth(truth), picture)
+    else:
+        note(f"no recordings in {data}: only speed and memory are measured")
+    fresh = subprocess.run([sys.executable, "-c", FRESH], check=True, capture_output=True)
+    result |= json.loads(fresh.stdout) | wire_speed(SEED)
+    print(json.dumps(result) if as_json else summary(result))
+
+
+def motion_errors(data: Path) -> Result:
+    """Median errors at the end of windows driven with the recorded commands."""
+    errors = [
+        window_error(frames)
+        for run in RUNS
+        for frames in windows(read_recording(data / run).frames)
+    ]
+    speed, yaw, position = np.median(np.array(errors), axis=0)
+    return {
+        "windows": len(errors),
+        "speed_error": round(float(speed), 4),
+        "yaw_error_deg": round(math.degrees(float(yaw)), 3),
+        "position_error": round(float(position), 4),
+    }
+
+
+def windows(frames: tuple[RecordedFrame, ...]) -> Iterator[list[RecordedFrame]]:
+    """Stretches of five seconds without a sign of a collision."""
+    window: list[RecordedFrame] = []
+    for frame in frames:
+        if max(abs(frame.pose.pitch), abs(frame.pose.roll)) > COLLISION_TILT:
+            window = []
+            continue
+        window.append(frame)
+        if frame.time - window[0].time >= WINDOW:
+            yield window
+            window = []
+
+
+def window_error(frames: list[RecordedFrame]) -> tuple[float, float, float]:
+    """Errors of speed [m/s], yaw [rad] and position [m] at the window's end."""
+    vehicle = Vehicle(frames[0].pose)
+    vehicle.roll_on(frames[0].speed, _between(frames[0], frames[0]))
+    for frame, following in pairwise(frames):
+        controls = _between(frame, following)
+        steps = round((following.time - frames[0].time) / STEP) - round(
+            (frame.time - frames[0].time) / STEP
+        )
+        for _ in range(steps):
+            vehicle.step(controls, Slope())
+    last = frames[-1]
+    offset = (vehicle.pose.x - last.pose.x, vehicle.pose.y - last.pose.y)
+    return (
+        abs(vehicle.speed - last.speed),
+        abs(wrap_angle(vehicle.pose.yaw - last.pose.yaw)),
+        math.hypot(*offset),
+    )
+
+
+def _between(frame: RecordedFrame, following: RecordedFrame) -> Controls:
+    """Keys ramp their inputs, so that between two samples the input is about their mean."""
+    return Controls(
+        (frame.steering_angle + following.steering_angle) / 2,
+        (frame.throttle + following.throttle) / 2,
+        (frame.brake + following.brake) / 2,
+    )
+
+
+def fresh_simulation() -> None:
+    """Print the cost of one simulation in this process, which should have done nothing before.
+
+    `world_seconds` is the wall time of its world, terrain and renderer, `frames_per_second` the
+    rate of physics, camera, JPEG and telemetry on this thread, `memory_mb` the largest memory of
+    the whole process [MB of 2^20], libraries included.
+    """
+    start = time.perf_counter()
+    simulation = Simulation(generate_world(SEED), SEED, 2)
+    ready = time.perf_counter()
+    command = {"steering_angle": STEERING_DEG, "throttle": THROTTLE, "brake": "0"}
+    simulation.handle("data", command)
+    for _ in range(SPEED_FRAMES):
+        simulation.advance()
+        simulation.telemetry()
+    end = time.perf_counter()
+    status = Path("/proc/self/status").read_text()
+    peak = next(line for line in status.splitlines() if line.startswith("VmHWM:"))
+    cost = {
+        "frames_per_second": round(SPEED_FRAMES / (end - ready), 1),
+        "world_seconds": round(ready - start, 2),
+        "memory_mb": round(int(peak.split()[1]) / 1024, 1),
+    }
+    print(json.dumps(cost))

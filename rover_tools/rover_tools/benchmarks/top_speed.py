@@ -1,0 +1,61 @@
+"""How fast the vehicle gets from one stop to the next when nothing is in its way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.geometry import Pose
+from rover_common.vehicle import MAX_SPEED
+from rover_simulator.vehicle.vehicle import BRAKE_INPUT, STEP, Controls, Slope, Vehicle
+
+THROTTLE = Controls(throttle=1.0)  # the most that the bridge sends
+BRAKE = Controls(brake=BRAKE_INPUT[-1])  # harder ones do not stop it sooner
+SPEEDS = np.linspace(0.0, MAX_SPEED, 501)  # [m/s] at which the profile is kept
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Gathering speed and losing it again: by the speed reached, SPEEDS."""
+
+    seconds: NDArray[np.float64]  # to reach the speed from a stand and to stop again
+    metres: NDArray[np.float64]
+
+
+@cache
+def profile() -> Profile:
+    """As the simulator's vehicle does it on flat ground."""
+    start = Pose(0.0, 0.0, 0.0)
+    gathering = _drive(Vehicle(start), THROTTLE)
+    rolling = Vehicle(start)
+    rolling.roll_on(MAX_SPEED, THROTTLE)
+    losing = _drive(rolling, BRAKE)
+    # What is left of the stop when the speed is reached, so that both grow with speed.
+    losing = (losing[-1] * (1, 1, 0) - losing * (1, 1, -1))[::-1]
+    parts = [
+        np.interp(SPEEDS, table[:, 2], table[:, column])
+        for table in (gathering, losing)
+        for column in (0, 1)
+    ]
+    return Profile(parts[0] + parts[2], parts[1] + parts[3])
+
+
+def leg_seconds(metres: float) -> float:
+    """Time [s] for a straight way, from a stand to a stand."""
+    both = profile()
+    top = float(np.interp(metres, both.metres, SPEEDS))
+    cruise = max(0.0, metres - float(both.metres[-1])) / MAX_SPEED
+    return float(np.interp(top, SPEEDS, both.seconds)) + cruise
+
+
+def _drive(vehicle: Vehicle, controls: Controls) -> NDArray[np.float64]:
+    """Rows of time [s], distance [m] and speed [m/s] until the speed does not change any more."""
+    rows = [(0.0, 0.0, vehicle.speed)]
+    while True:
+        vehicle.step(controls, Slope())
+        rows.append((rows[-1][0] + STEP, vehicle.pose.x, vehicle.speed))
+        if rows[-1][2] == rows[-2][2]:
+            return np.array(rows[:-1])

@@ -1,0 +1,1 @@
+"""Scores maps and missions, in the graph and in one process."""

@@ -1,0 +1,48 @@
+"""How a map and rock positions are scored against the truth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
+
+ROCK_RADIUS = 1.0  # [m] a located rock lies this near to a true sample
+
+
+@dataclass(frozen=True)
+class MapScore:
+    """All in percent."""
+
+    percent_mapped: float  # true navigable cells that the map has, of all true navigable cells
+    fidelity: float  # mapped navigable cells that are truly navigable, of all mapped ones
+    f1: float  # harmonic mean of the two
+
+
+@dataclass(frozen=True)
+class RockScore:
+    located: int  # true samples with a found rock within ROCK_RADIUS
+    missed: int
+    false: int  # found rocks that belong to no true sample
+
+
+def score_map(navigable: NDArray[np.bool_], truth: NDArray[np.bool_]) -> MapScore:
+    """Score mapped navigable cells against the truth, both (200, 200)."""
+    right = int(np.count_nonzero(navigable & truth))
+    mapped = 100.0 * right / int(np.count_nonzero(truth))
+    fidelity = 100.0 * right / max(1, int(np.count_nonzero(navigable)))
+    f1 = 2.0 * mapped * fidelity / (mapped + fidelity) if right else 0.0
+    return MapScore(mapped, fidelity, f1)
+
+
+def score_rocks(found: NDArray[np.float64], true: NDArray[np.float64]) -> RockScore:
+    """Match found rocks (n, 2) [m] one to one with true samples (m, 2) [m]."""
+    if len(found) == 0 or len(true) == 0:
+        return RockScore(0, len(true), len(found))
+    distance = cdist(found, true)
+    # As many pairs within reach as there can be: one out of reach costs more than all the others.
+    pairs = linear_sum_assignment(np.where(distance <= ROCK_RADIUS, distance, 1e6))
+    located = int(np.count_nonzero(distance[pairs] <= ROCK_RADIUS))
+    return RockScore(located, len(true) - located, len(found) - located)

@@ -1,0 +1,1 @@
+"""Starts the graph as processes and watches it."""

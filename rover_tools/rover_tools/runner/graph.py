@@ -1,0 +1,60 @@
+"""The three nodes as processes, started as `ros2 run` would."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Mapping
+from pathlib import Path
+
+from ament_index_python.packages import get_package_prefix, get_package_share_directory
+
+from rover_tools.runner.processes import Processes
+
+NODES = {
+    "bridge_node": "rover_bridge",
+    "perception_node": "rover_perception",
+    "decision_node": "rover_decision",
+}
+HOST = "127.0.0.1"
+
+
+def default_parameters() -> Path:
+    """The parameter file that ships."""
+    return Path(get_package_share_directory("rover_bringup")) / "config" / "rover.yaml"
+
+
+def executable(package: str, name: str) -> str:
+    """The installed executable of a package."""
+    return str(Path(get_package_prefix(package)) / "lib" / package / name)
+
+
+def free_port() -> int:
+    """A TCP port on the loopback that nobody listens on now."""
+    with socket.socket() as probe:
+        probe.bind((HOST, 0))
+        return int(probe.getsockname()[1])
+
+
+def start_graph(
+    processes: Processes,
+    port: int,
+    parameters_file: Path,
+    overrides: Mapping[str, Mapping[str, object]],
+) -> None:
+    """Start the bridge on this port, perception and decision, all in simulated time.
+
+    `overrides` holds parameter values by node name, over those of the file.
+    """
+    for node, package in NODES.items():
+        values = {"use_sim_time": True, **overrides.get(node, {})}
+        if node == "bridge_node":
+            values |= {"host": HOST, "port": port}
+        command = [executable(package, node), "--ros-args"]
+        command += ["--params-file", str(parameters_file)]
+        for name, value in values.items():
+            command += ["-p", f"{name}:={_yaml_scalar(value)}"]
+        processes.start(node, command)
+
+
+def _yaml_scalar(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)

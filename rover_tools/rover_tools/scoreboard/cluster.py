@@ -1,0 +1,85 @@
+"""The engine: a Dask cluster that flies the missions, here or on many machines."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+
+import dask
+from distributed import Client, LocalCluster, as_completed
+
+from rover_tools.scoreboard.errors import ScoreboardError
+from rover_tools.scoreboard.job import Job
+from rover_tools.scoreboard.mission_run import Flown, fly_job
+
+CONNECT_SECONDS = 10.0  # [s] for the scheduler to answer
+HOST = "127.0.0.1"
+# Dask has each worker's memory trimmed all the time, for tasks on data frames. A rendered frame's
+# arrays would be asked from the system anew each time, which costs a tenth of a mission's time.
+ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
+MEMORY = {"MALLOC_TRIM_THRESHOLD_": 1 << 30, "MALLOC_MMAP_THRESHOLD_": 1 << 25}  # [bytes]
+
+Outcome = Flown | BaseException
+Fly = Callable[[Job], Flown]
+
+
+@contextmanager
+def local_cluster(workers: int) -> Iterator[Client]:
+    """Workers on this machine: a process each, with one thread."""
+    environment = {f"{ENVIRONMENT}.{name}": value for name, value in MEMORY.items()}
+    with _workers_ignore_ctrl_c(), dask.config.set(environment):
+        cluster = LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            host=HOST,
+            memory_limit=0,  # a mission's memory does not grow; a limit would kill it half way
+            dashboard_address=f"{HOST}:0",  # any free port; None would take a fixed one
+            silence_logs=logging.CRITICAL,
+        )
+    with cluster, Client(cluster, timeout=CONNECT_SECONDS) as client:
+        yield client
+
+
+@contextmanager
+def remote_cluster(address: str) -> Iterator[Client]:
+    """The workers of a scheduler that runs already; raises ScoreboardError."""
+    try:
+        client = Client(address, timeout=CONNECT_SECONDS)
+    except (OSError, ValueError) as error:
+        raise ScoreboardError(f"no Dask scheduler at {address}: {error}") from error
+    with client:
+        yield client
+
+
+def cluster(
+    scheduler: str | None, workers: int | None, jobs: int
+) -> AbstractContextManager[Client]:
+    """The scheduler's cluster, or a local one with no more workers than jobs."""
+    if scheduler is not None:
+        return remote_cluster(scheduler)
+    return local_cluster(max(1, min(workers or os.cpu_count() or 1, jobs)))
+
+
+def fly_all(
+    client: Client, jobs: Sequence[Job], fly: Fly = fly_job
+) -> Iterator[tuple[Job, Outcome]]:
+    """Fly all jobs; each comes back as soon as it is over, with what it raised, if it did."""
+    # Not pure: what was flown under the same name before must not be taken for it.
+    futures = {client.submit(fly, job, pure=False): job for job in jobs}
+    for future in as_completed(list(futures)):
+        error = future.exception()
+        yield futures.pop(future), future.result() if error is None else error
+
+
+@contextmanager
+def _workers_ignore_ctrl_c() -> Iterator[None]:
+    """What is started in here inherits that Ctrl-C is ignored, so that it can be ended in order."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)

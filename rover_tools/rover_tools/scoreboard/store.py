@@ -1,0 +1,98 @@
+"""The result folder: one JSON file and one picture per mission, written when it is over."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rover_tools.evaluation.results import Result
+from rover_tools.scoreboard.errors import ScoreboardError
+from rover_tools.scoreboard.job import Job
+
+MISSIONS = "missions"
+SHARED_SETTINGS = ("fps", "time_limit")  # the same for all missions of one folder
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One mission of the folder."""
+
+    name: str
+    settings: dict[str, Any]
+    failed: bool  # it raised; it is flown again the next time
+    result: Result
+
+    @property
+    def group(self) -> str:
+        return str(self.settings["group"])
+
+    @property
+    def picture(self) -> str | None:
+        """Relative to the result folder."""
+        return None if self.failed else f"{MISSIONS}/{self.name}.png"
+
+
+class Store:
+    """What has been flown; a file counts only when it is whole."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        (folder / MISSIONS).mkdir(parents=True, exist_ok=True)
+
+    def entries(self) -> list[Entry]:
+        """All missions of the folder, by group, seed and strategy; raises ScoreboardError."""
+        entries = [_read(path) for path in (self.folder / MISSIONS).glob("*.json")]
+        return sorted(entries, key=lambda e: (e.group, e.settings["seed"], e.settings["strategy"]))
+
+    def left(self, jobs: Iterable[Job]) -> list[Job]:
+        """The jobs still to fly, and those that failed.
+
+        Raises ScoreboardError when the folder holds missions flown under other settings: they
+        are not to be mixed.
+        """
+        there = {entry.name: entry for entry in self.entries()}
+        left = []
+        for job in jobs:
+            wanted = job.settings()
+            for entry in there.values():
+                keys = wanted if entry.name == job.name else SHARED_SETTINGS
+                _check_same(entry, wanted, keys)
+            if job.name not in there or there[job.name].failed:
+                left.append(job)
+        return left
+
+    def add(self, job: Job, result: Result, picture: bytes | None) -> None:
+        """Write one mission; the JSON file comes last, so that it stands for a whole one."""
+        path = self.folder / MISSIONS / f"{job.name}.json"
+        if picture is not None:
+            write_whole(path.with_suffix(".png"), picture)
+        content = {"settings": job.settings(), "failed": picture is None, "result": result}
+        write_whole(path, (json.dumps(content, indent=2) + "\n").encode())
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file so that nobody ever sees a part of it."""
+    draft = path.with_name(f".{path.name}.{os.getpid()}")
+    draft.write_bytes(content)
+    draft.replace(path)
+
+
+def _read(path: Path) -> Entry:
+    try:
+        content = json.loads(path.read_text())
+        return Entry(path.stem, content["settings"], content["failed"], content["result"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise ScoreboardError(f"{path} is no mission of a scoreboard; delete it") from error
+
+
+def _check_same(entry: Entry, wanted: dict[str, Any], keys: Iterable[str]) -> None:
+    for key in keys:
+        there, here = entry.settings.get(key), wanted[key]
+        if there != here:
+            raise ScoreboardError(
+                f"{entry.name} was flown with {key} {there}, not {here}; choose another --out"
+            )

@@ -1,0 +1,64 @@
+"""Processes of a run: a dead one is told with its log, none outlives the run."""
+
+import os
+import sys
+import time
+
+import pytest
+
+from rover_tools.runner.domain import reserved_domain
+from rover_tools.runner.processes import ProcessDiedError, Processes
+
+WAIT = 10.0  # [s]
+
+
+def wait_for(predicate) -> None:
+    end = time.monotonic() + WAIT
+    while not predicate():
+        assert time.monotonic() < end, "it did not happen in time"
+        os.sched_yield()
+
+
+def test_a_dead_process_is_told_with_the_end_of_its_log(tmp_path):
+    with Processes(tmp_path, {}) as processes:
+        code = "import sys; print('the reason'); sys.exit(3)"
+        processes.start("worker", [sys.executable, "-c", code])
+        wait_for(lambda: processes.ended("worker") is not None)
+        with pytest.raises(
+            ProcessDiedError, match=r"worker ended with exit code 3[\s\S]*the reason"
+        ):
+            processes.check()
+
+
+def test_all_processes_end_with_the_block(tmp_path):
+    code = "import os, signal; print(os.getpid(), flush=True); signal.pause()"
+    stubborn = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); " + code
+    log = tmp_path / "worker.log"
+    with Processes(tmp_path, {}) as processes:
+        processes.stop_seconds = 0.2
+        processes.start("worker", [sys.executable, "-c", stubborn])
+        wait_for(lambda: log.read_text().endswith("\n"))
+        processes.check()
+        pid = int(log.read_text())
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_the_environment_is_handed_on(tmp_path):
+    with Processes(tmp_path, {"ROS_DOMAIN_ID": "77"}) as processes:
+        code = "import os; print(os.environ['ROS_DOMAIN_ID'])"
+        processes.start("worker", [sys.executable, "-c", code])
+        wait_for(lambda: processes.ended("worker") is not None)
+    assert (tmp_path / "worker.log").read_text() == "77\n"
+
+
+def test_two_runs_have_two_domains(monkeypatch):
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    with reserved_domain() as first, reserved_domain() as second:
+        assert first != second
+
+
+def test_a_chosen_domain_is_kept(monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "42")
+    with reserved_domain() as domain:
+        assert domain == 42

@@ -1,0 +1,49 @@
+"""Strategies by name, and from parameter files."""
+
+import argparse
+from pathlib import Path
+
+import pytest
+
+from rover_decision.config import DecisionConfig
+from rover_tools.cli.mission import parser
+from rover_tools.evaluation.strategy import ParametersError, Strategy, choices
+
+SHIPPED = Path(__file__).resolve().parents[2] / "rover_bringup" / "config" / "rover.yaml"
+
+
+def test_a_name_and_back():
+    for explorer in choices("explorer"):
+        for way_home in choices("way_home"):
+            strategy = Strategy(explorer, way_home)
+            assert Strategy.parse(str(strategy)) == strategy
+            assert strategy.config().explorer == explorer
+            assert strategy.config().way_home == way_home
+    assert str(Strategy.parse("tour+breadcrumbs")) == "tour"
+
+
+@pytest.mark.parametrize("text", ["", "dance", "tour+", "tour+dance", "+bearing"])
+def test_a_name_that_there_is_not(text):
+    with pytest.raises(argparse.ArgumentTypeError, match="there are"):
+        Strategy.parse(text)
+
+
+def test_of_the_parameters_that_ship():
+    assert Strategy.of_parameters(SHIPPED) == Strategy()
+    assert Strategy().config() == DecisionConfig()
+
+
+def test_of_other_parameters(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text("/**/decision_node:\n  ros__parameters:\n    explorer: frontier\n")
+    assert str(Strategy.of_parameters(path)) == "frontier"
+    path.write_text("[not, parameters]")
+    with pytest.raises(ParametersError, match=r"mine\.yaml"):
+        Strategy.of_parameters(path)
+
+
+def test_a_mission_takes_a_strategy_by_either_name():
+    for option in ("--explorer", "--strategy"):
+        options = parser("mission", "").parse_args([option, "wall_follow_b+bearing"])
+        assert options.strategy == Strategy("wall_follow_b", "bearing")
+    assert parser("mission", "").parse_args([]).strategy is None
