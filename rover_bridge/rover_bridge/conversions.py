@@ -15,12 +15,14 @@ from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose, quaternion_from_pose
 from rover_common.ros.conversions import header_of, time_of
-from rover_common.types import Telemetry
+from rover_common.types import Run, Telemetry
 
 
-def status_of(stamp: int, telemetry: Telemetry) -> RoverStatus:
+def status_of(stamp: int, run: Run, telemetry: Telemetry) -> RoverStatus:
     return RoverStatus(
         header=header_of(stamp, frames.BASE),
+        run=run.number,
+        run_start=time_of(run.start),
         throttle=telemetry.throttle,
         brake=telemetry.brake,
         steering_angle=telemetry.steering_angle,

@@ -27,6 +27,7 @@ from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comm
 from rover_bridge.config import BridgeConfig
 from rover_bridge.errors import TelemetryError
 from rover_bridge.pending_requests import Answer, Exchange, Ticket
+from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import (
     Connected,
     ProtocolTrouble,
@@ -40,7 +41,7 @@ from rover_common.ros.conversions import NANOSECONDS, command_of, image_message_
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.types import SAFE_COMMAND, Telemetry
+from rover_common.types import SAFE_COMMAND, Run, Telemetry
 
 LOG_PERIOD = 5.0  # [s] between two lines about the same kind of trouble
 DEADLINE_LOOKS = 4  # looks for late answers per deadline
@@ -53,6 +54,7 @@ class BridgeNode(Node):
         super().__init__("bridge_node", **kwargs)
         config = declare_parameters(self, BridgeConfig)
         self._exchange = Exchange(config.answer_deadline)
+        self._runs = RunTracker()
         self._comma_clients: set[str] = set()
         self._warned: dict[str, float] = {}  # [s] wall time of the last line of each kind
         self._make_endpoints()
@@ -144,7 +146,10 @@ class BridgeNode(Node):
             self._send(Answer(client, SAFE_COMMAND, error.counter))
             return
         self._diagnostics.counts["telemetries"] += 1
-        stamp = self._exchange.next_stamp(self._stamp_of(telemetry))
+        run, stamp = self._runs.track(telemetry, self._time_of(telemetry))
+        if run.start == stamp:
+            self._diagnostics.counts["runs"] = run.number
+            self.get_logger().info(f"run {run.number} begins")
         self._exchange.open(
             Ticket(
                 client=client,
@@ -155,21 +160,24 @@ class BridgeNode(Node):
                 picking_up=telemetry.picking_up,
             )
         )
-        self._publish(stamp, telemetry)
+        self._publish(stamp, run, telemetry)
 
-    def _publish(self, stamp: int, telemetry: Telemetry) -> None:
+    def _publish(self, stamp: int, run: Run, telemetry: Telemetry) -> None:
         """First what the decision waits for, the largest message first of all."""
         image = image_message_of(stamp, frames.CAMERA_OPTICAL, telemetry.image)
         self._odometry.publish(odometry_of(stamp, telemetry.pose, telemetry.speed))
         self._image.publish(image)
-        self._status.publish(conversions.status_of(stamp, telemetry))
+        self._status.publish(conversions.status_of(stamp, run, telemetry))
         if telemetry.sim_time is not None:
             self._clock_publisher.publish(conversions.clock_of(stamp))
         self._tf.publish(conversions.body_transform_of(stamp, telemetry.pose))
         self._camera_info.publish(conversions.camera_info_of(stamp))
 
     def _on_command(self, message: DriveCommand) -> None:
-        answer = self._exchange.answer(*command_of(message))
+        stamp, command = command_of(message)
+        if command.new_run:
+            self._runs.request(message.run)
+        answer = self._exchange.answer(stamp, command)
         if answer is None:
             self._diagnostics.counts["commands_late"] += 1
             return
@@ -194,10 +202,9 @@ class BridgeNode(Node):
         driver = self._exchange.driver
         self._state.publish(String(data="disconnected" if driver is None else "connected"))
 
-    def _stamp_of(self, telemetry: Telemetry) -> int:
-        if telemetry.sim_time is None:
-            return self._now()
-        return round(telemetry.sim_time * NANOSECONDS)
+    def _time_of(self, telemetry: Telemetry) -> float:
+        """[s] of the simulator's clock, of the node's where the simulator tells none."""
+        return self._now() / NANOSECONDS if telemetry.sim_time is None else telemetry.sim_time
 
     def _now(self) -> int:
         return int(self.get_clock().now().nanoseconds)

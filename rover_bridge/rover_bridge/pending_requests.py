@@ -46,7 +46,6 @@ class Exchange:
         self._deadline = deadline
         self._open: dict[int, Ticket] = {}
         self._arm = _Arm()
-        self._last_stamp = -1
         self._heard = 0.0  # [s] wall time of the driver's latest telemetry
         self.driver: str | None = None
 
@@ -64,18 +63,9 @@ class Exchange:
         if self.driver is None or (client != self.driver and silent):
             self.driver = client
             self._arm = _Arm()
-            self._last_stamp = -1  # the time of another simulator is another one
         if client == self.driver:
             self._heard = now
         return client == self.driver
-
-    def next_stamp(self, wanted: int) -> int:
-        """The stamp [ns] for a telemetry of this time: later than the one before.
-
-        Two telemetries of one simulated frame have the same time; a stamp names one of them.
-        """
-        self._last_stamp = max(wanted, self._last_stamp + 1)
-        return self._last_stamp
 
     def open(self, ticket: Ticket) -> None:
         self._arm.see(ticket)

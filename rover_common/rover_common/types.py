@@ -1,4 +1,5 @@
-"""What flows between the nodes' cores: telemetry -> percept -> decision -> command.
+"""What flows between the nodes' cores: telemetry -> perception result -> decision
+-> command.
 
 Every type is frozen. Stamps are integers [ns] of the ROS clock; all that came in one telemetry, and
 all that was derived from it, carries the stamp of that telemetry.
@@ -12,6 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of the simulator: from its first telemetry to the next reset, reload or restart.
+
+    The bridge alone decides when a run begins. Every core starts anew, wholly, on a frame with
+    another number.
+    """
+
+    number: int  # counts from 1
+    start: int  # [ns] stamp of the run's first telemetry
+
+    def holds(self, stamp: int) -> bool:
+        """Whether a message of this stamp [ns] belongs to this run and not to one before."""
+        return stamp >= self.start
+
+
+FIRST_RUN = Run(1, 0)
 
 
 @dataclass(frozen=True)
@@ -38,6 +58,7 @@ class CameraFrame:
     stamp: int  # [ns]
     pose: Pose
     image: NDArray[np.uint8]  # (height, width, 3) RGB
+    run: Run = FIRST_RUN
 
 
 @dataclass(frozen=True)
@@ -76,7 +97,7 @@ class Rock:
 
 
 @dataclass(frozen=True)
-class Percept:
+class PerceptionResult:
     """What one camera frame says about the surroundings."""
 
     stamp: int  # [ns]
@@ -85,6 +106,7 @@ class Percept:
     scan: FreeScan
     rocks: tuple[Rock, ...]  # all rocks known after this frame
     map_stamp: int  # [ns] of the newest maps that were due, this frame's or an older one's
+    run: Run = FIRST_RUN
 
 
 @dataclass(frozen=True)
@@ -97,6 +119,7 @@ class VehicleState:
     near_sample: bool
     picking_up: bool
     sample_count: int  # not yet collected
+    run: Run = FIRST_RUN
 
 
 @dataclass(frozen=True)
@@ -117,6 +140,7 @@ class Command:
     brake: float = 0.0  # >= 0, 1 stops with about 2.5 m/s^2
     steering_angle: float = 0.0  # [rad] left positive
     pickup: bool = False  # pick up instead of driving
+    new_run: bool = False  # begin a new run with the next telemetry
 
 
 SAFE_COMMAND = Command(brake=1.0)

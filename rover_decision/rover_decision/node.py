@@ -1,6 +1,6 @@
 """The decision node: percepts to drive commands, one for every frame.
 
-Subscribes odom, rover_status, nav_polar, free_scan and rocks (joined by stamp), and driving_map.
+Subscribes odom, rover_status, nav_polar, free_scan and rocks (joined by stamp), and navigation_map.
 Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and /diagnostics.
 Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger); action ~/run_mission
 (rover_interfaces/RunMission). Parameters: see DecisionConfig. In simulated time a frame waits for
@@ -20,7 +20,7 @@ from rover_interfaces.msg import (
     DriveCommand,
     MissionState,
     PolarArray,
-    RockDetectionArray,
+    RockTrackArray,
     RoverStatus,
 )
 from sensor_msgs.msg import LaserScan
@@ -32,7 +32,7 @@ from rover_common.ros import conversions, qos
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.ros.sync import StampJoin
+from rover_common.ros.sync import ExactTimeSynchronizer
 from rover_decision.config import DecisionConfig
 from rover_decision.conversions import markers_of, mission_state_of
 from rover_decision.mission import Mission
@@ -47,7 +47,7 @@ FRAME_PARTS = {
     topics.STATUS: RoverStatus,
     topics.NAV_POLAR: PolarArray,
     topics.FREE_SCAN: LaserScan,
-    topics.ROCKS: RockDetectionArray,
+    topics.ROCKS: RockTrackArray,
 }
 Parts = dict[str, Any]  # of one frame, by topic
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
@@ -62,7 +62,7 @@ class DecisionNode(Node):
         self._mission = Mission(config)
         lockstep = bool(self.get_parameter("use_sim_time").value)
         self._desk = PlanDesk(Planner(config.explorer).plan, config.plan_delay, lockstep)
-        self._join = StampJoin(tuple(FRAME_PARTS))
+        self._join = ExactTimeSynchronizer(tuple(FRAME_PARTS))
         self._waiting: deque[tuple[int, Parts]] = deque()  # frames that need a plan first
         self._reported: tuple[int, State] | None = None
         self._command = self.create_publisher(DriveCommand, topics.COMMAND, qos.FRAME)
@@ -72,7 +72,7 @@ class DecisionNode(Node):
             self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()
         ]
-        self.create_subscription(OccupancyGrid, topics.DRIVING_MAP, self._on_map, qos.LATCHED)
+        self.create_subscription(OccupancyGrid, topics.NAVIGATION_MAP, self._on_map, qos.LATCHED)
         self._make_services()
         self._action = RunMissionServer(self, self._mission)
         peers = {
@@ -136,7 +136,9 @@ class DecisionNode(Node):
         snapshot = self._snapshot(stamp, parts)
         decision = self._mission.tick(snapshot)
         now = int(self.get_clock().now().nanoseconds)
-        self._command.publish(conversions.command_message_of(now, stamp, decision.command))
+        self._command.publish(
+            conversions.command_message_of(now, stamp, snapshot.vehicle.run, decision.command)
+        )
         if conversions.stamp_of(parts[topics.ROCKS].map_stamp) == stamp:
             self._desk.ask(stamp, self._mission.plan_request(snapshot))
         self._diagnostics.counts["frames"] += 1

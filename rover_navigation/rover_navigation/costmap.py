@@ -1,4 +1,4 @@
-"""The driving map as the planner needs it: what is free, what is unknown, how far walls are."""
+"""The navigation map as the planner needs it: what is free, what is unknown, how far walls are."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Blocked:
 
 @dataclass(frozen=True)
 class Costmap:
-    """A part of the driving map; all arrays (rows, cols), an even number of each."""
+    """A part of the navigation map; all arrays (rows, cols), an even number of each."""
 
     geometry: GridGeometry
     free: NDArray[np.bool_]

@@ -14,7 +14,7 @@ class PerceptionConfig:
     )
     evidence_resolution: float = parameter(
         0.25,
-        "[m] cell of the driving map and of the evidence; divides the map's",
+        "[m] cell of the navigation map and of the evidence; divides the map's",
         minimum=0.05,
         maximum=1.0,
     )

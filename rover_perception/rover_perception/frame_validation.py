@@ -1,9 +1,8 @@
-"""Which frames may touch the map, at which pose their images were taken, and when a run begins."""
+"""Which frames may touch the map, and at which pose their images were taken."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,9 +10,6 @@ from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose
 from rover_common.grid import WORLD_SIZE
 from rover_common.types import CameraFrame
-
-RESTART_SECONDS = 5.0  # [s] of time falling back: a new run has begun
-JUMP = 20.0  # [m] between two frames: a new run as well, the rover drives 5 m/s
 
 
 class FrameError(ValueError):
@@ -34,14 +30,6 @@ class OutsideError(FrameError):
     counter = "frame_pose_outside"
 
 
-@dataclass(frozen=True)
-class Admission:
-    """What is known of a frame before its image is looked at."""
-
-    pose: Pose  # at which the image was taken
-    new_run: bool  # the simulator began anew: what was mapped before is of another run
-
-
 class FrameGate:
     """Refuses what cannot be trusted; pairs each image with its pose.
 
@@ -55,29 +43,24 @@ class FrameGate:
         self._poses: list[Pose] = []  # of the last rendered frames, oldest first
         self._last: CameraFrame | None = None
 
-    def admit(self, frame: CameraFrame) -> Admission:
-        """Raises FrameError; a refused frame changes nothing but the history of poses."""
+    def admit(self, frame: CameraFrame) -> Pose:
+        """The pose at which the image was taken.
+
+        Raises FrameError; a refused frame changes nothing but the history of poses.
+        """
         try:
             _check_pose(frame.pose)
         except FrameError:
             self._poses = []
             raise
         last = self._last
-        fell_back = 0.0 if last is None else 1e-9 * (last.stamp - frame.stamp)
-        if fell_back > 0.0:
+        if last is not None and frame.stamp < last.stamp:
             self._poses = []
         if last is None or not self._poses or not _same_rendering(last, frame):
             self._poses = [*self._poses, frame.pose][-(self._image_lag + 1) :]
         _check_image(frame)
         self._last = frame
-        jumped = (
-            last is not None
-            and math.hypot(frame.pose.x - last.pose.x, frame.pose.y - last.pose.y) > JUMP
-        )
-        new_run = jumped or fell_back > RESTART_SECONDS
-        if new_run:
-            self._poses = [frame.pose]
-        return Admission(self._poses[0], new_run)
+        return self._poses[0]
 
 
 def _same_rendering(first: CameraFrame, second: CameraFrame) -> bool:

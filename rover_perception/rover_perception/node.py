@@ -1,7 +1,7 @@
 """The perception node: images and poses to a world map, polar arrays and rocks.
 
-Subscribes camera/image_raw and odom (joined by stamp). Publishes nav_polar, rock_polar, free_scan
-and rocks (latched) for every frame; worldmap (latched); driving_map and vision_image, both only
+Subscribes camera/image_raw, odom and rover_status (joined by stamp). Publishes nav_polar,
+rock_polar, free_scan and rocks (latched) for every frame; worldmap (latched); navigation_map and vision_image, both only
 while subscribed; /diagnostics. Parameters: see PerceptionConfig.
 """
 
@@ -13,7 +13,7 @@ import cv2
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
-from rover_interfaces.msg import PolarArray, RockDetectionArray
+from rover_interfaces.msg import PolarArray, RockTrackArray, RoverStatus
 from sensor_msgs.msg import Image, LaserScan
 
 from rover_common import frames, topics
@@ -22,8 +22,8 @@ from rover_common.ros.conversions import MessageError
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.ros.sync import StampJoin
-from rover_common.types import Percept
+from rover_common.ros.sync import ExactTimeSynchronizer
+from rover_common.types import PerceptionResult
 from rover_perception.camera.vision import vision_image
 from rover_perception.config import PerceptionConfig
 from rover_perception.frame_validation import FrameError
@@ -41,10 +41,10 @@ class PerceptionNode(Node):
         cv2.setNumThreads(1)  # the images are small, and the other nodes need the cores
         self._config = declare_parameters(self, PerceptionConfig)
         self._core = Perception(self._config)
-        self._join = StampJoin((topics.IMAGE, topics.ODOMETRY))
+        self._join = ExactTimeSynchronizer((topics.IMAGE, topics.ODOMETRY, topics.STATUS))
         self._stamp: int | None = None
         self._map_stamp: int | None = None
-        self._driving_map_stamp: int | None = None
+        self._navigation_map_stamp: int | None = None
         self._vision_stamp: int | None = None
         self._frames_at_last_look = 0
         self._make_endpoints()
@@ -57,15 +57,18 @@ class PerceptionNode(Node):
         self._nav = publish(PolarArray, topics.NAV_POLAR, qos.FRAME)
         self._rock_polar = publish(PolarArray, topics.ROCK_POLAR, qos.FRAME)
         self._scan = publish(LaserScan, topics.FREE_SCAN, qos.FRAME)
-        self._rock_list = publish(RockDetectionArray, topics.ROCKS, qos.FRAME_LATCHED)
+        self._rock_list = publish(RockTrackArray, topics.ROCKS, qos.FRAME_LATCHED)
         self._map = publish(OccupancyGrid, topics.WORLDMAP, qos.LATCHED)
-        self._driving_map = publish(OccupancyGrid, topics.DRIVING_MAP, qos.LATCHED)
+        self._navigation_map = publish(OccupancyGrid, topics.NAVIGATION_MAP, qos.LATCHED)
         self._vision = publish(Image, topics.VISION_IMAGE, qos.VIEW)
         image = self.create_subscription(Image, topics.IMAGE, self._on_image, qos.FRAME)
         odometry = self.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
+        status = self.create_subscription(RoverStatus, topics.STATUS, self._on_status, qos.FRAME)
         peers = {
             "bridge": lambda: (
-                image.get_publisher_count() > 0 and odometry.get_publisher_count() > 0
+                image.get_publisher_count() > 0
+                and odometry.get_publisher_count() > 0
+                and status.get_publisher_count() > 0
             ),
             "decision": lambda: (
                 self._nav.get_subscription_count() > 0 and self._scan.get_subscription_count() > 0
@@ -79,37 +82,41 @@ class PerceptionNode(Node):
     def _on_odometry(self, message: Odometry) -> None:
         self._on_part(topics.ODOMETRY, message)
 
+    def _on_status(self, message: RoverStatus) -> None:
+        self._on_part(topics.STATUS, message)
+
     def _on_part(self, slot: str, message: Any) -> None:
         parts = self._join.add(slot, conversions.stamp_of(message.header.stamp), message)
         self._diagnostics.counts["frames_incomplete"] = self._join.dropped
         if parts is None:
             return
         try:
-            frame = conversions.camera_frame_of(parts[topics.IMAGE], parts[topics.ODOMETRY])
-            percept = self._core.process(frame)
+            frame = conversions.camera_frame_of(
+                parts[topics.IMAGE], parts[topics.ODOMETRY], parts[topics.STATUS]
+            )
+            result = self._core.process(frame)
         except FrameError as error:
             self._drop(error.counter, error)
         except MessageError as error:
             self._drop("frame_image_encoding", error)
         else:
             self._diagnostics.counts["frames"] += 1
-            self._diagnostics.counts["map_restarts"] = self._core.restarts
-            self._publish(percept)
+            self._publish(result)
 
     def _drop(self, counter: str, error: Exception) -> None:
         self._diagnostics.counts[counter] += 1
         self.get_logger().warning(f"frame dropped: {error}", throttle_duration_sec=LOG_PERIOD)
 
-    def _publish(self, percept: Percept) -> None:
+    def _publish(self, result: PerceptionResult) -> None:
         """First what the decision waits for."""
-        stamp = percept.stamp
-        rocks = conversions.rocks_message_of(stamp, percept.rocks, percept.map_stamp)
+        stamp, run = result.stamp, result.run
+        rocks = conversions.rocks_message_of(stamp, run, result.rocks, result.map_stamp)
         self._rock_list.publish(rocks)
-        self._nav.publish(conversions.polar_message_of(stamp, percept.nav))
-        self._rock_polar.publish(conversions.polar_message_of(stamp, percept.rock))
-        self._scan.publish(conversions.scan_message_of(stamp, percept.scan))
+        self._nav.publish(conversions.polar_message_of(stamp, run, result.nav))
+        self._rock_polar.publish(conversions.polar_message_of(stamp, run, result.rock))
+        self._scan.publish(conversions.scan_message_of(stamp, result.scan))
         self._stamp = stamp
-        if percept.map_stamp == stamp:
+        if result.map_stamp == stamp:
             self._publish_map(stamp)
         if self._vision.get_subscription_count() and _due(
             self._vision_stamp, stamp, self._config.vision_period
@@ -119,14 +126,14 @@ class PerceptionNode(Node):
     def _publish_map(self, stamp: int) -> None:
         self._map_stamp = stamp
         self._map.publish(conversions.grid_message_of(stamp, self._core.world_map()))
-        self._publish_driving_map(stamp)
+        self._publish_navigation_map(stamp)
 
-    def _publish_driving_map(self, stamp: int) -> None:
+    def _publish_navigation_map(self, stamp: int) -> None:
         """Only while somebody listens: it has sixteen times the cells of the world map."""
-        if self._driving_map.get_subscription_count() and self._driving_map_stamp != stamp:
-            self._driving_map_stamp = stamp
-            grid = conversions.grid_message_of(stamp, self._core.driving_map())
-            self._driving_map.publish(grid)
+        if self._navigation_map.get_subscription_count() and self._navigation_map_stamp != stamp:
+            self._navigation_map_stamp = stamp
+            grid = conversions.grid_message_of(stamp, self._core.navigation_map())
+            self._navigation_map.publish(grid)
 
     def _publish_vision(self, stamp: int) -> None:
         if self._core.last is None:
@@ -144,7 +151,7 @@ class PerceptionNode(Node):
             return
         if self._map_stamp != self._stamp:
             self._publish_map(self._stamp)
-        self._publish_driving_map(self._stamp)
+        self._publish_navigation_map(self._stamp)
 
 
 def _due(last: int | None, now: int, period: float) -> bool:

@@ -1,4 +1,4 @@
-"""Perception's core: a camera frame in, a percept out; it keeps the map and the rocks."""
+"""Perception's core: a camera frame in, a perception result out; it keeps the map and the rocks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 
 from rover_common.camera import ROVER_CAMERA
 from rover_common.grid import GridGeometry
-from rover_common.types import CameraFrame, GridMap, Percept, PolarArray
+from rover_common.types import (
+    FIRST_RUN,
+    CameraFrame,
+    GridMap,
+    PerceptionResult,
+    PolarArray,
+    Run,
+)
 from rover_perception.camera.ground_projection import View
 from rover_perception.camera.segmentation import Columns, ground_columns, rock_mask
 from rover_perception.config import PerceptionConfig
@@ -36,31 +43,31 @@ class Perception:
     def __init__(self, config: PerceptionConfig) -> None:
         self._config = config
         self.last: Seen | None = None
-        self.restarts = 0  # times that a new run was seen to begin, and the map forgotten
-        self._gate = FrameGate(config.image_lag)
-        self.reset()
+        self._begin(FIRST_RUN)
 
-    def reset(self) -> None:
-        """Forget the map and the rocks."""
+    def _begin(self, run: Run) -> None:
+        """Forget the map, the rocks and the frames before."""
+        self._run = run
+        self._gate = FrameGate(self._config.image_lag)
         geometry = GridGeometry.of_world(self._config.evidence_resolution)
         self._evidence = EvidenceGrid(geometry, self._config.max_range)
         self._rocks = RockTracks()
         self._map_stamp: int | None = None
 
-    def process(self, frame: CameraFrame) -> Percept:
+    def process(self, frame: CameraFrame) -> PerceptionResult:
         """Add one frame to the map; raises FrameError and leaves the map as it was."""
-        admission = self._gate.admit(frame)
-        if admission.new_run:
-            self.restarts += 1
-            self.reset()
+        if frame.run.number != self._run.number:
+            self._begin(frame.run)
+        pose = self._gate.admit(frame)
         map_stamp = self._newest_map(frame.stamp)
-        pose = admission.pose
         view = View.of(ROVER_CAMERA, pose)
         if not view.usable:
             scan = no_scan(self._config.max_range)
             nothing = PolarArray.empty()
             rocks = self._rocks.believed()
-            return Percept(frame.stamp, nothing, nothing, scan, rocks, map_stamp)
+            return PerceptionResult(
+                frame.stamp, nothing, nothing, scan, rocks, map_stamp, frame.run
+            )
         mask = rock_mask(frame.image, view)
         sightings = detect_rocks(frame.image, mask, view, pose)
         columns = ground_columns(frame.image, mask if len(sightings.x) else None, view)
@@ -68,13 +75,14 @@ class Perception:
         if sightings.rocks:
             self._rocks.add(sightings.rocks, frame.stamp)
         self.last = Seen(frame.image, columns, mask)
-        return Percept(
+        return PerceptionResult(
             stamp=frame.stamp,
             nav=_polar(x, y),
             rock=_polar(sightings.x, sightings.y),
             scan=free_scan(view, columns, self._config.max_range),
             rocks=self._rocks.believed(),
             map_stamp=map_stamp,
+            run=frame.run,
         )
 
     @property
@@ -86,7 +94,7 @@ class Perception:
         """The map as it is published."""
         return occupancy_of(self._evidence, self._config.map_resolution)
 
-    def driving_map(self) -> GridMap:
+    def navigation_map(self) -> GridMap:
         """The same at the resolution of the evidence."""
         return occupancy_of(self._evidence, self._config.evidence_resolution)
 

@@ -11,6 +11,7 @@ from rover_bridge import conversions
 from rover_bridge.codec import decode_telemetry
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
+from rover_common.types import FIRST_RUN
 
 STAMP = 12_000_000_034
 
@@ -57,7 +58,7 @@ def test_the_body_transform_is_the_pose():
 
 def test_the_status_carries_what_the_simulator_said():
     wire = telemetry(steering_angle=0.1, throttle=0.4, brake=0.2, near_sample=True, sim_time=3.5)
-    status = conversions.status_of(STAMP, decode_telemetry(wire))
+    status = conversions.status_of(STAMP, FIRST_RUN, decode_telemetry(wire))
     assert (status.header.stamp.sec, status.header.stamp.nanosec) == (12, 34)
     assert (status.throttle, status.brake) == (0.4, 0.2)
     assert status.steering_angle == pytest.approx(0.1, abs=1e-5)
@@ -68,4 +69,6 @@ def test_the_status_carries_what_the_simulator_said():
 
 
 def test_a_simulator_without_a_clock():
-    assert math.isnan(conversions.status_of(STAMP, decode_telemetry(telemetry())).sim_time)
+    assert math.isnan(
+        conversions.status_of(STAMP, FIRST_RUN, decode_telemetry(telemetry())).sim_time
+    )

@@ -18,7 +18,7 @@ from rover_bridge.node import BridgeNode
 from rover_bridge.server import PortInUseError, SocketServer
 from rover_common import topics
 from rover_common.ros import conversions, qos
-from rover_common.types import Command
+from rover_common.types import FIRST_RUN, Command
 from rover_simulator.wire.unity_client import OPEN, UnityClient
 
 EXCHANGES = 1000
@@ -36,7 +36,7 @@ class Decider(Node):
 
     def _on_status(self, status: RoverStatus) -> None:
         stamp = conversions.stamp_of(status.header.stamp)
-        self._publisher.publish(conversions.command_message_of(0, stamp, self._command))
+        self._publisher.publish(conversions.command_message_of(0, stamp, FIRST_RUN, self._command))
 
 
 class InThread:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rover_common.geometry import Pose
 from rover_common.ros import conversions
-from rover_common.types import Command, FreeScan, GridMap, PolarArray, Rock
+from rover_common.types import FIRST_RUN, Command, FreeScan, GridMap, PolarArray, Rock
 
 STAMP = 12_345_678_901_234
 
@@ -41,7 +41,7 @@ def test_image():
 
 def test_polar_and_scan():
     polar = PolarArray(np.array([1, 2], np.float32), np.array([-0.5, 0.5], np.float32))
-    back = conversions.polar_of(conversions.polar_message_of(STAMP, polar))
+    back = conversions.polar_of(conversions.polar_message_of(STAMP, FIRST_RUN, polar))
     assert (back.ranges == polar.ranges).all()
     assert (back.bearings == polar.bearings).all()
     ranges = np.array([1.0, np.inf, 2.0], np.float32)
@@ -53,7 +53,9 @@ def test_polar_and_scan():
 
 def test_rocks():
     rocks = (Rock(7, 1.0, 2.0, (0.1, 0.0, 0.0, 0.2), 5, STAMP),)
-    assert conversions.rocks_of(conversions.rocks_message_of(STAMP, rocks, STAMP)) == rocks
+    assert (
+        conversions.rocks_of(conversions.rocks_message_of(STAMP, FIRST_RUN, rocks, STAMP)) == rocks
+    )
 
 
 def test_grid():
@@ -65,5 +67,5 @@ def test_grid():
 
 def test_command():
     command = Command(0.5, 0.0, -0.1, False)
-    message = conversions.command_message_of(STAMP + 5, STAMP, command)
+    message = conversions.command_message_of(STAMP + 5, STAMP, FIRST_RUN, command)
     assert conversions.command_of(message) == (STAMP, command)

@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rover_common.config import parameter
 from rover_common.grid import GridGeometry
 from rover_common.ros.parameters import ParameterError, declare_parameters
-from rover_common.ros.sync import StampJoin
+from rover_common.ros.sync import ExactTimeSynchronizer
 
 
 @given(st.integers(0, 399), st.integers(0, 399))
@@ -35,7 +35,7 @@ def test_row_follows_y_and_column_follows_x():
 
 
 def test_join_waits_for_all_parts():
-    join = StampJoin(("a", "b"))
+    join = ExactTimeSynchronizer(("a", "b"))
     assert join.add("a", 1, "A") is None
     assert join.add("b", 2, "other") is None
     assert join.add("b", 1, "B") == {"a": "A", "b": "B"}
@@ -44,7 +44,7 @@ def test_join_waits_for_all_parts():
 
 
 def test_join_forgets_the_oldest():
-    join = StampJoin(("a", "b"), pending=2)
+    join = ExactTimeSynchronizer(("a", "b"), pending=2)
     for stamp in range(5):
         join.add("a", stamp, stamp)
     assert join.dropped == 3

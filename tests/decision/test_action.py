@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rover import MIDDLE, snapshot
 from rover_interfaces.action import RunMission
-from rover_interfaces.msg import DriveCommand, PolarArray, RockDetectionArray, RoverStatus
+from rover_interfaces.msg import DriveCommand, PolarArray, RockTrackArray, RoverStatus
 from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 
@@ -22,6 +22,7 @@ from rover_common import frames, topics
 from rover_common.geometry import Pose
 from rover_common.ros import conversions, qos
 from rover_common.ros.runner import EventsExecutor
+from rover_common.types import FIRST_RUN
 from rover_decision.node import DecisionNode
 
 PERIOD = 0.3  # [s] of frame time
@@ -40,7 +41,7 @@ class Bench:
             topics.STATUS: RoverStatus,
             topics.NAV_POLAR: PolarArray,
             topics.FREE_SCAN: LaserScan,
-            topics.ROCKS: RockDetectionArray,
+            topics.ROCKS: RockTrackArray,
         }
         self._parts = {
             topic: self.peer.create_publisher(kind, topic, qos.FRAME)
@@ -73,9 +74,13 @@ class Bench:
         answered = len(self._commands)
         self._parts[topics.ODOMETRY].publish(conversions.odometry_of(stamp, pose, vehicle.speed))
         self._parts[topics.STATUS].publish(status)
-        self._parts[topics.NAV_POLAR].publish(conversions.polar_message_of(stamp, shown.nav))
+        self._parts[topics.NAV_POLAR].publish(
+            conversions.polar_message_of(stamp, FIRST_RUN, shown.nav)
+        )
         self._parts[topics.FREE_SCAN].publish(conversions.scan_message_of(stamp, shown.scan))
-        self._parts[topics.ROCKS].publish(conversions.rocks_message_of(stamp, shown.rocks, 0))
+        self._parts[topics.ROCKS].publish(
+            conversions.rocks_message_of(stamp, FIRST_RUN, shown.rocks, 0)
+        )
         assert self.ros.spin_until(lambda: len(self._commands) > answered)
 
     def wait(self, future: Future) -> Any:

@@ -144,7 +144,7 @@ def test_a_few_looks_at_a_wall_from_afar_leave_its_foot_to_be_explored():
         core = Perception(LIVE)
         for frame in frames([Pose(x, 100, 0)] * 10, hall):
             core.process(frame)
-        return core.driving_map().cells[396:404, 396:404]  # [m] 99 to 101
+        return core.navigation_map().cells[396:404, 396:404]  # [m] 99 to 101
 
     far = at_the_end(94.0)
     assert (far <= EDGE).all()

@@ -7,7 +7,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
-from rover_interfaces.msg import PolarArray, RockDetectionArray
+from rover_interfaces.msg import PolarArray, RockTrackArray
 from scene import draw
 from sensor_msgs.msg import Image, LaserScan
 
@@ -84,8 +84,8 @@ def test_a_late_subscriber_gets_the_map_and_the_last_frame_is_in_it(ros, bench):
     assert (cells[99:101, 92:94] < 50).all()
 
 
-def test_the_driving_map_is_the_same_map_in_finer_cells(ros, bench):
-    grids = bench.listen(OccupancyGrid, topics.DRIVING_MAP, qos.LATCHED)
+def test_the_navigation_map_is_the_same_map_in_finer_cells(ros, bench):
+    grids = bench.listen(OccupancyGrid, topics.NAVIGATION_MAP, qos.LATCHED)
     for index in range(5):
         bench.send(1_000_000_000 + index * 40_000_000)
     last = 1_000_000_000 + 4 * 40_000_000
@@ -172,7 +172,7 @@ def test_nobody_paints_a_vision_image_that_nobody_sees(ros, bench, monkeypatch):
 
 
 def test_the_vision_image_is_made_for_subscribers(ros, bench):
-    bench.listen(RockDetectionArray, topics.ROCKS, qos.LATCHED)
+    bench.listen(RockTrackArray, topics.ROCKS, qos.LATCHED)
     pictures = bench.listen(Image, topics.VISION_IMAGE, qos.VIEW)
     assert ros.spin_until(lambda: bench.node.count_subscribers(topics.VISION_IMAGE) > 0)
     stamps = iter(range(1_000_000_000, 60_000_000_000, 300_000_000))

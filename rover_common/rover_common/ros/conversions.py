@@ -8,7 +8,7 @@ import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Quaternion
 from nav_msgs.msg import OccupancyGrid, Odometry
-from rover_interfaces.msg import DriveCommand, RockDetection, RockDetectionArray, RoverStatus
+from rover_interfaces.msg import DriveCommand, RockTrack, RockTrackArray, RoverStatus
 from rover_interfaces.msg import PolarArray as PolarArrayMsg
 from sensor_msgs.msg import Image, LaserScan
 from std_msgs.msg import Header
@@ -23,6 +23,7 @@ from rover_common.types import (
     GridMap,
     PolarArray,
     Rock,
+    Run,
     VehicleState,
 )
 
@@ -62,6 +63,10 @@ def odometry_of(stamp: int, pose: Pose, speed: float) -> Odometry:
     return message
 
 
+def run_of(status: RoverStatus) -> Run:
+    return Run(status.run, stamp_of(status.run_start))
+
+
 def vehicle_state_of(odometry: Odometry, status: RoverStatus) -> VehicleState:
     return VehicleState(
         stamp=stamp_of(odometry.header.stamp),
@@ -70,6 +75,7 @@ def vehicle_state_of(odometry: Odometry, status: RoverStatus) -> VehicleState:
         near_sample=status.near_sample,
         picking_up=status.picking_up,
         sample_count=status.sample_count,
+        run=run_of(status),
     )
 
 
@@ -97,14 +103,16 @@ def image_of(message: Image) -> np.ndarray:
     return view.reshape(message.height, message.width, 3)
 
 
-def camera_frame_of(image: Image, odometry: Odometry) -> CameraFrame:
+def camera_frame_of(image: Image, odometry: Odometry, status: RoverStatus) -> CameraFrame:
     """Raises MessageError."""
-    return CameraFrame(stamp_of(image.header.stamp), pose_of(odometry), image_of(image))
+    stamp = stamp_of(image.header.stamp)
+    return CameraFrame(stamp, pose_of(odometry), image_of(image), run_of(status))
 
 
-def polar_message_of(stamp: int, polar: PolarArray) -> PolarArrayMsg:
+def polar_message_of(stamp: int, run: Run, polar: PolarArray) -> PolarArrayMsg:
     return PolarArrayMsg(
         header=header_of(stamp, frames.BASE),
+        run=run.number,
         ranges=_float32(polar.ranges),
         bearings=_float32(polar.bearings),
     )
@@ -138,13 +146,16 @@ def scan_of(message: LaserScan) -> FreeScan:
     )
 
 
-def rocks_message_of(stamp: int, rocks: tuple[Rock, ...], map_stamp: int) -> RockDetectionArray:
+def rocks_message_of(
+    stamp: int, run: Run, rocks: tuple[Rock, ...], map_stamp: int
+) -> RockTrackArray:
     """`map_stamp` [ns]: of the newest maps at that frame."""
-    return RockDetectionArray(
+    return RockTrackArray(
         header=header_of(stamp, frames.MAP),
+        run=run.number,
         map_stamp=time_of(map_stamp),
         rocks=[
-            RockDetection(
+            RockTrack(
                 id=rock.id,
                 position=Point(x=rock.x, y=rock.y, z=0.0),
                 covariance=rock.covariance,
@@ -156,7 +167,7 @@ def rocks_message_of(stamp: int, rocks: tuple[Rock, ...], map_stamp: int) -> Roc
     )
 
 
-def rocks_of(message: RockDetectionArray) -> tuple[Rock, ...]:
+def rocks_of(message: RockTrackArray) -> tuple[Rock, ...]:
     return tuple(
         Rock(
             id=rock.id,
@@ -187,20 +198,25 @@ def grid_of(message: OccupancyGrid) -> GridMap:
     return GridMap(info.resolution, info.origin.position.x, info.origin.position.y, cells)
 
 
-def command_message_of(now: int, frame_stamp: int, command: Command) -> DriveCommand:
+def command_message_of(now: int, frame_stamp: int, run: Run, command: Command) -> DriveCommand:
+    """`now` [ns]: when it was decided; `frame_stamp` [ns] and `run`: of the frame it answers."""
     return DriveCommand(
         header=header_of(now, frames.BASE),
         frame_stamp=time_of(frame_stamp),
+        run=run.number,
         throttle=command.throttle,
         brake=command.brake,
         steering_angle=command.steering_angle,
         pickup=command.pickup,
+        new_run=command.new_run,
     )
 
 
 def command_of(message: DriveCommand) -> tuple[int, Command]:
     """The stamp [ns] of the frame that it answers, and the command."""
-    command = Command(message.throttle, message.brake, message.steering_angle, message.pickup)
+    command = Command(
+        message.throttle, message.brake, message.steering_angle, message.pickup, message.new_run
+    )
     return stamp_of(message.frame_stamp), command
 
 

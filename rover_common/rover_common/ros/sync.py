@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 
-class StampJoin:
+class ExactTimeSynchronizer:
     """Collects parts by stamp; a set is complete when every slot has a part of that stamp.
 
     Keeps at most `pending` incomplete stamps; the oldest goes first, and is counted in `dropped`.

@@ -103,7 +103,7 @@ class Loop:
         decision = self.mission.tick(snapshot)
         if percept.map_stamp == stamp:
             self._desk.ask(stamp, self.mission.plan_request(snapshot))
-            self._desk.give_map(stamp, self.perception.driving_map())
+            self._desk.give_map(stamp, self.perception.navigation_map())
         return decision
 
     def _answer(self, decision: Decision) -> None:

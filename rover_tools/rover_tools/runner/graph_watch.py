@@ -13,7 +13,7 @@ from nav_msgs.msg import OccupancyGrid
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rover_interfaces.msg import MissionState, RockDetectionArray
+from rover_interfaces.msg import MissionState, RockTrackArray
 
 from rover_common import topics
 from rover_common.ros import conversions, qos
@@ -35,12 +35,12 @@ class GraphWatch:
         self._executor.add_node(self._node)
         self.diagnostics: dict[str, DiagnosticStatus] = {}
         self.grid: OccupancyGrid | None = None
-        self._rocks: RockDetectionArray | None = None
+        self._rocks: RockTrackArray | None = None
         self.mission: MissionState | None = None
         subscribe = self._node.create_subscription
         subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS)
         subscribe(OccupancyGrid, topics.WORLDMAP, self._on_grid, qos.LATCHED)
-        subscribe(RockDetectionArray, topics.ROCKS, self._on_rocks, qos.LATCHED)
+        subscribe(RockTrackArray, topics.ROCKS, self._on_rocks, qos.LATCHED)
         subscribe(MissionState, topics.MISSION_STATE, self._on_mission, qos.LATCHED)
         self._stop = False
         self._thread = threading.Thread(target=self._spin, name="graph-watch")
@@ -113,7 +113,7 @@ class GraphWatch:
     def _on_grid(self, message: OccupancyGrid) -> None:
         self.grid = message
 
-    def _on_rocks(self, message: RockDetectionArray) -> None:
+    def _on_rocks(self, message: RockTrackArray) -> None:
         self._rocks = message
 
     def _on_mission(self, message: MissionState) -> None:
