@@ -85,8 +85,8 @@ class FreeScan:
 
 
 @dataclass(frozen=True)
-class Rock:
-    """One rock sample, however often it was seen."""
+class RockTrack:
+    """One rock sample, tracked over all camera frames that saw it."""
 
     id: int
     x: float  # [m] map frame, centre of the rock on the ground
@@ -104,7 +104,7 @@ class PerceptionResult:
     nav: PolarArray  # navigable ground cells
     rock: PolarArray  # rock cells
     scan: FreeScan
-    rocks: tuple[Rock, ...]  # all rocks known after this frame
+    rocks: tuple[RockTrack, ...]  # all rocks known after this frame
     map_stamp: int  # [ns] of the newest maps that were due, this frame's or an older one's
     run: Run = FIRST_RUN
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rover_common.types import Command, FreeScan, PolarArray, Rock, VehicleState
+from rover_common.types import Command, FreeScan, PolarArray, RockTrack, VehicleState
 from rover_decision.states import State
 from rover_navigation.types import Plan
 
@@ -16,7 +16,7 @@ class Snapshot:
     vehicle: VehicleState
     nav: PolarArray  # navigable ground cells
     scan: FreeScan
-    rocks: tuple[Rock, ...] = ()  # all that are known
+    rocks: tuple[RockTrack, ...] = ()  # all that are known
     plan: Plan | None = None  # the one in force at this frame
 
     @property

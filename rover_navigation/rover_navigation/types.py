@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
-from rover_common.types import GridMap, Rock
+from rover_common.types import GridMap, RockTrack
 from rover_navigation.costmap import Blocked
 
 
@@ -61,7 +61,7 @@ class PlanRequest:
     pose: Pose
     home: tuple[float, float]  # [m]
     trail: NDArray[np.float64]  # (n, 2) [m] where the rover has been
-    rocks: tuple[Rock, ...]  # worth going for now
+    rocks: tuple[RockTrack, ...]  # worth going for now
     blocked: tuple[Blocked, ...]
     visited: NDArray[np.float64]  # (n, 3) [m] x, y, radius of what was looked at in vain
     doubtful: NDArray[np.float64]  # (n, 3) [m] the same, so long ago that it may be tried again

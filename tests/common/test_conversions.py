@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rover_common.geometry import Pose
 from rover_common.ros import conversions
-from rover_common.types import FIRST_RUN, Command, FreeScan, GridMap, PolarArray, Rock
+from rover_common.types import FIRST_RUN, Command, FreeScan, GridMap, PolarArray, RockTrack
 
 STAMP = 12_345_678_901_234
 
@@ -52,7 +52,7 @@ def test_polar_and_scan():
 
 
 def test_rocks():
-    rocks = (Rock(7, 1.0, 2.0, (0.1, 0.0, 0.0, 0.2), 5, STAMP),)
+    rocks = (RockTrack(7, 1.0, 2.0, (0.1, 0.0, 0.0, 0.2), 5, STAMP),)
     assert (
         conversions.rocks_of(conversions.rocks_message_of(STAMP, FIRST_RUN, rocks, STAMP)) == rocks
     )

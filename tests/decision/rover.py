@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
-from rover_common.types import Command, FreeScan, GridMap, PolarArray, Rock, VehicleState
+from rover_common.types import Command, FreeScan, GridMap, PolarArray, RockTrack, VehicleState
 from rover_common.vehicle import (
     ARM_FORWARD,
     ARM_RADIUS,
@@ -39,7 +39,7 @@ def snapshot(
     time: float = 1.0,
     pose: Pose = MIDDLE,
     ahead: float = RANGE,
-    rocks: tuple[Rock, ...] = (),
+    rocks: tuple[RockTrack, ...] = (),
     speed: float = 0.0,
     near_sample: bool = False,
     picking_up: bool = False,
@@ -68,8 +68,8 @@ def straight_plan(
     return Plan(stamp, to, way, Way(back, speeds), 10.0, np.empty((0, 2)), 0.5)
 
 
-def rock(x: float, y: float, number: int = 1) -> Rock:
-    return Rock(number, x, y, (0.01, 0.0, 0.0, 0.01), 10, 0)
+def rock(x: float, y: float, number: int = 1) -> RockTrack:
+    return RockTrack(number, x, y, (0.01, 0.0, 0.0, 0.01), 10, 0)
 
 
 class PlanarRover:
@@ -195,7 +195,7 @@ def _snapshot(
     pose: Pose,
     speed: float,
     scan: FreeScan,
-    rocks: tuple[Rock, ...],
+    rocks: tuple[RockTrack, ...],
     near_sample: bool,
     picking_up: bool,
     sample_count: int,

@@ -6,7 +6,7 @@ import pytest
 
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose
-from rover_common.types import CameraFrame, Rock
+from rover_common.types import CameraFrame, RockTrack
 from rover_perception.camera.ground_projection import View
 from rover_perception.camera.segmentation import rock_mask
 from rover_perception.config import PerceptionConfig
@@ -83,7 +83,7 @@ def sighting(origin: tuple[float, float], target: tuple[float, float, float]) ->
     return RockSighting(camera, line / distance, 0.05 + 0.006 * distance)
 
 
-def tracked(sightings: list[RockSighting]) -> tuple[Rock, ...]:
+def tracked(sightings: list[RockSighting]) -> tuple[RockTrack, ...]:
     tracks = RockTracks()
     for index, one in enumerate(sightings):
         tracks.add((one,), index)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import yaml
 
-from rover_common.types import GridMap, Rock
+from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.map_files import save_map_server_pair
 from rover_tools.evaluation.results import SamplesError, Truth, load_samples, score, write_results
 
-ROCK = Rock(1, 20.4, 30.0, (0.01, 0.0, 0.0, 0.01), 5, 0)
+ROCK = RockTrack(1, 20.4, 30.0, (0.01, 0.0, 0.0, 0.01), 5, 0)
 
 
 def grid_with(free: tuple[slice, slice], occupied: tuple[slice, slice]) -> GridMap:

@@ -8,8 +8,9 @@ import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Quaternion
 from nav_msgs.msg import OccupancyGrid, Odometry
-from rover_interfaces.msg import DriveCommand, RockTrack, RockTrackArray, RoverStatus
+from rover_interfaces.msg import DriveCommand, RockTrackArray, RoverStatus
 from rover_interfaces.msg import PolarArray as PolarArrayMsg
+from rover_interfaces.msg import RockTrack as RockTrackMsg
 from sensor_msgs.msg import Image, LaserScan
 from std_msgs.msg import Header
 
@@ -22,7 +23,7 @@ from rover_common.types import (
     FreeScan,
     GridMap,
     PolarArray,
-    Rock,
+    RockTrack,
     Run,
     VehicleState,
 )
@@ -147,7 +148,7 @@ def scan_of(message: LaserScan) -> FreeScan:
 
 
 def rocks_message_of(
-    stamp: int, run: Run, rocks: tuple[Rock, ...], map_stamp: int
+    stamp: int, run: Run, rocks: tuple[RockTrack, ...], map_stamp: int
 ) -> RockTrackArray:
     """`map_stamp` [ns]: of the newest maps at that frame."""
     return RockTrackArray(
@@ -155,7 +156,7 @@ def rocks_message_of(
         run=run.number,
         map_stamp=time_of(map_stamp),
         rocks=[
-            RockTrack(
+            RockTrackMsg(
                 id=rock.id,
                 position=Point(x=rock.x, y=rock.y, z=0.0),
                 covariance=rock.covariance,
@@ -167,9 +168,9 @@ def rocks_message_of(
     )
 
 
-def rocks_of(message: RockTrackArray) -> tuple[Rock, ...]:
+def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
     return tuple(
-        Rock(
+        RockTrack(
             id=rock.id,
             x=rock.position.x,
             y=rock.position.y,

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from rover_common.types import Rock
+from rover_common.types import RockTrack
 from rover_perception.tracking.rock_detection import MIDDLE_HEIGHT, RockSighting
 
 GATE = 3.0  # standard deviations within which a sighting belongs to a rock
@@ -95,7 +95,7 @@ class RockTracks:
     def __init__(self) -> None:
         self._tracks: list[_Track] = []
         self._next_id = 1
-        self._believed: tuple[Rock, ...] = ()
+        self._believed: tuple[RockTrack, ...] = ()
 
     def add(self, sightings: tuple[RockSighting, ...], stamp: int) -> None:
         """Add the sightings of one frame, taken at `stamp` [ns]."""
@@ -111,7 +111,7 @@ class RockTracks:
 
         self._believed = tuple(_rock(track) for track in self._tracks if track.believed)
 
-    def believed(self) -> tuple[Rock, ...]:
+    def believed(self) -> tuple[RockTrack, ...]:
         """The rocks that enough frames agree on."""
         return self._believed
 
@@ -131,8 +131,8 @@ class RockTracks:
                 grown = first
 
 
-def _rock(track: _Track) -> Rock:
+def _rock(track: _Track) -> RockTrack:
     x, y = track.position
     (xx, xy), (yx, yy) = track.covariance
     covariance = (float(xx), float(xy), float(yx), float(yy))
-    return Rock(track.id, float(x), float(y), covariance, track.observations, track.last_seen)
+    return RockTrack(track.id, float(x), float(y), covariance, track.observations, track.last_seen)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from rover_bridge.codec import decode_telemetry, encode_drive
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
-from rover_common.types import CameraFrame, FreeScan, GridMap, Rock, Telemetry, VehicleState
+from rover_common.types import CameraFrame, FreeScan, GridMap, RockTrack, Telemetry, VehicleState
 from rover_decision.config import DecisionConfig
 from rover_decision.mission import Mission
 from rover_decision.states import State
@@ -33,7 +33,7 @@ class LoopResult:
     done: bool  # by the mission's own word
     decision: Decision
     world_map: GridMap
-    rocks: tuple[Rock, ...]
+    rocks: tuple[RockTrack, ...]
     track: NDArray[np.float64]  # (n, 2) [m] true positions, one a second
 
 
@@ -57,7 +57,7 @@ class Loop:
         planner = planner or Planner(config.explorer)
         self._desk = PlanDesk(planner.plan, config.plan_delay, lockstep=True)
         self._stamp = -1
-        self._rocks: tuple[Rock, ...] = ()
+        self._rocks: tuple[RockTrack, ...] = ()
 
     def close(self) -> None:
         self._desk.close()

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from rover_common.map_encoding import EDGE, navigable_cells
-from rover_common.types import GridMap, Rock
+from rover_common.types import GridMap, RockTrack
 
 # map_server's pixel values in trinary mode
 FREE, UNKNOWN, OCCUPIED = 254, 205, 0
@@ -48,7 +48,7 @@ def draw_map(
     file: Path | BinaryIO,
     grid: GridMap,
     track: NDArray[np.float64],
-    rocks: Sequence[Rock],
+    rocks: Sequence[RockTrack],
     truth: NDArray[np.bool_] | None,
     samples: NDArray[np.float64] | None,
     title: str,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.types import GridMap, Rock
+from rover_common.types import GridMap, RockTrack
 from rover_simulator.world.world import World
 from rover_tools.evaluation.results import Result, Truth, score
 
@@ -36,7 +36,7 @@ def mission_result(
     done: bool,
     flight: Flight,
     grid: GridMap | None,
-    rocks: tuple[Rock, ...],
+    rocks: tuple[RockTrack, ...],
     recoveries: int | None,
     wall_seconds: float,
 ) -> Result:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rover_common.ground_truth import load_truth
 from rover_common.map_encoding import navigable_cells
-from rover_common.types import GridMap, Rock
+from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.map_files import draw_map, save_map_server_pair
 from rover_tools.evaluation.scoring import score_map, score_rocks
 
@@ -52,7 +52,7 @@ def load_samples(path: Path) -> NDArray[np.float64]:
     return np.array(rows, float).reshape(-1, 2)
 
 
-def score(grid: GridMap | None, rocks: tuple[Rock, ...], truth: Truth) -> Result:
+def score(grid: GridMap | None, rocks: tuple[RockTrack, ...], truth: Truth) -> Result:
     """The scores; None where there is no truth to score against."""
     result: Result = dict.fromkeys(
         ("percent_mapped", "fidelity", "f1", "rocks_located", "rocks_missed", "rocks_false")
@@ -84,7 +84,7 @@ def write_results(
     result: Result,
     grid: GridMap | None,
     track: NDArray[np.float64],
-    rocks: tuple[Rock, ...],
+    rocks: tuple[RockTrack, ...],
     truth: Truth,
     title: str,
 ) -> None:

@@ -17,7 +17,7 @@ from rover_interfaces.msg import MissionState, RockTrackArray
 
 from rover_common import topics
 from rover_common.ros import conversions, qos
-from rover_common.types import GridMap, Rock
+from rover_common.types import GridMap, RockTrack
 
 
 class GraphNotReadyError(RuntimeError):
@@ -74,7 +74,7 @@ class GraphWatch:
             time.sleep(0.02)
         return None if self.grid is None else conversions.grid_of(self.grid)
 
-    def rocks(self) -> tuple[Rock, ...]:
+    def rocks(self) -> tuple[RockTrack, ...]:
         return () if self._rocks is None else conversions.rocks_of(self._rocks)
 
     def counts(self) -> dict[str, dict[str, int]]:
