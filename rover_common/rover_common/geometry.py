@@ -29,6 +29,16 @@ def wrap_angle(angle: float) -> float:
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
+def bearing_to(pose: Pose, x: float, y: float) -> float:
+    """Bearing [rad], left positive, of a point [m] in the map frame."""
+    return wrap_angle(math.atan2(y - pose.y, x - pose.x) - pose.yaw)
+
+
+def distance_between(a: Pose, b: Pose) -> float:
+    """[m] on the ground."""
+    return math.hypot(a.x - b.x, a.y - b.y)
+
+
 def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
     """Rotation (3, 3) from base_link to the map frame."""
     cy, sy = math.cos(pose.yaw), math.sin(pose.yaw)

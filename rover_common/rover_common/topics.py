@@ -14,4 +14,5 @@ VISION_IMAGE = "vision_image"  # sensor_msgs/Image, rgb8
 BRIDGE_STATE = "bridge_state"  # std_msgs/String, latched: connected or disconnected
 COMMAND = "cmd_drive"  # rover_interfaces/DriveCommand
 MISSION_STATE = "mission_state"  # rover_interfaces/MissionState, latched
+PLAN = "plan"  # nav_msgs/Path
 MISSION_MARKERS = "mission_markers"  # visualization_msgs/MarkerArray

@@ -1,30 +1,34 @@
-"""The mission's report and its markers as messages."""
+"""The mission's report, its path and its markers as messages."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
 import numpy as np
-from geometry_msgs.msg import Point
+from geometry_msgs.msg import Point, PoseStamped, Quaternion
+from geometry_msgs.msg import Pose as PoseMsg
+from nav_msgs.msg import Path as PathMsg
 from rover_interfaces.msg import MissionState
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rover_common import frames
 from rover_common.ros.conversions import header_of
-from rover_decision.memory import Memory
-from rover_decision.types import Decision, Snapshot
+from rover_common.types import RockTrack, Run
+from rover_decision.types import Decision, Overlay
+from rover_navigation.types import NO_POINTS, Path
 
 BLUE, CYAN = ColorRGBA(b=1.0, g=0.4, a=1.0), ColorRGBA(b=1.0, g=1.0, a=0.8)
 GREEN, YELLOW = ColorRGBA(g=0.8, a=1.0), ColorRGBA(r=1.0, g=0.8, a=1.0)
 RED = ColorRGBA(r=1.0, a=0.6)
 
 
-def mission_state_of(stamp: int, decision: Decision) -> MissionState:
+def mission_state_of(stamp: int, run: Run, decision: Decision) -> MissionState:
     progress = decision.progress
     return MissionState(
         header=header_of(stamp, frames.MAP),
         state=int(decision.state),
+        run=run.number,
         state_name=decision.state.name,
         reason=decision.reason,
         elapsed=progress.elapsed,
@@ -39,21 +43,41 @@ def mission_state_of(stamp: int, decision: Decision) -> MissionState:
     )
 
 
-def markers_of(stamp: int, snapshot: Snapshot, memory: Memory) -> MarkerArray:
-    """Trail, rocks, blocked places, and the plan: frontiers, goal and way."""
-    plan = snapshot.plan
-    way = np.empty((0, 2)) if plan is None else plan.way.points
-    frontiers = np.empty((0, 2)) if plan is None else plan.frontiers
+def path_message_of(stamp: int, path: Path) -> PathMsg:
+    """The poses of a path face along it."""
+    header = header_of(stamp, frames.MAP)
+    steps = np.diff(path.points, axis=0, append=path.points[-1:])
+    yaws = np.arctan2(steps[:, 1], steps[:, 0])
+    yaws[-1:] = yaws[-2:-1] if len(yaws) > 1 else 0.0
+    return PathMsg(
+        header=header,
+        poses=[
+            PoseStamped(
+                header=header,
+                pose=PoseMsg(
+                    position=Point(x=float(x), y=float(y), z=0.0),
+                    orientation=Quaternion(z=float(np.sin(yaw / 2)), w=float(np.cos(yaw / 2))),
+                ),
+            )
+            for (x, y), yaw in zip(path.points, yaws, strict=True)
+        ],
+    )
+
+
+def markers_of(stamp: int, rocks: tuple[RockTrack, ...], overlay: Overlay) -> MarkerArray:
+    """Breadcrumbs, rocks, blocked places, and the plan: frontiers, goal and path."""
+    plan = overlay.plan
+    path = NO_POINTS if overlay.path is None else overlay.path.points
     goal = [] if plan is None or plan.goal is None else [(plan.goal.x, plan.goal.y)]
-    rocks = [(rock.x, rock.y) for rock in snapshot.rocks]
-    blocked = [(place.x, place.y) for place in memory.blocked]
+    rock_points = [(rock.x, rock.y) for rock in rocks]
+    blocked = [(place.x, place.y) for place in overlay.blocked]
     return MarkerArray(
         markers=[
-            _marker(stamp, "crumbs", Marker.LINE_STRIP, 0.15, BLUE, memory.crumbs.points),
-            _marker(stamp, "way", Marker.LINE_STRIP, 0.25, GREEN, way),
-            _marker(stamp, "frontiers", Marker.SPHERE_LIST, 0.5, CYAN, frontiers),
+            _marker(stamp, "breadcrumbs", Marker.LINE_STRIP, 0.15, BLUE, overlay.breadcrumbs),
+            _marker(stamp, "path", Marker.LINE_STRIP, 0.25, GREEN, path),
+            _marker(stamp, "frontiers", Marker.SPHERE_LIST, 0.5, CYAN, overlay.frontiers),
             _marker(stamp, "goal", Marker.SPHERE_LIST, 1.0, GREEN, goal),
-            _marker(stamp, "rocks", Marker.SPHERE_LIST, 0.6, YELLOW, rocks),
+            _marker(stamp, "rocks", Marker.SPHERE_LIST, 0.6, YELLOW, rock_points),
             _marker(stamp, "blocked", Marker.SPHERE_LIST, 1.0, RED, blocked),
         ]
     )

@@ -1,20 +1,21 @@
-"""The decision node: percepts to drive commands, one for every frame.
+"""The decision node: perception results to drive commands, one for every frame.
 
 Subscribes odom, rover_status, nav_polar, free_scan and rocks (joined by stamp), and navigation_map.
-Publishes cmd_drive, mission_state (latched), mission_markers (while subscribed) and /diagnostics.
-Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger); action ~/run_mission
-(rover_interfaces/RunMission). Parameters: see DecisionConfig. In simulated time a frame waits for
-the plan that counts from it on, so that a mission repeats exactly.
+Publishes cmd_drive, mission_state (latched), plan and mission_markers (both while subscribed) and
+/diagnostics. Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger); action
+~/run_mission (rover_interfaces/RunMission). Parameters: see DecisionConfig. In simulated time a
+frame waits for the plan that counts from it on, so that a mission repeats exactly.
 """
 
 from __future__ import annotations
 
+import time
 from collections import deque
-from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rover_interfaces.msg import (
     DriveCommand,
@@ -33,14 +34,11 @@ from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.sync import ExactTimeSynchronizer
-from rover_decision.config import DecisionConfig
-from rover_decision.conversions import markers_of, mission_state_of
-from rover_decision.mission import Mission
+from rover_decision.conversions import markers_of, mission_state_of, path_message_of
+from rover_decision.missions.sample_return import make_core
+from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.node_action import RunMissionServer
-from rover_decision.states import State
-from rover_decision.types import Decision, Snapshot
-from rover_navigation.plan_scheduler import PlanDesk
-from rover_navigation.planner import Planner
+from rover_decision.types import Decision, Frame, Request
 
 FRAME_PARTS = {
     topics.ODOMETRY: Odometry,
@@ -51,30 +49,35 @@ FRAME_PARTS = {
 }
 Parts = dict[str, Any]  # of one frame, by topic
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
+PATIENCE = 5.0  # [s] of wall time that a frame waits for the map of its plan
 
 
 class DecisionNode(Node):
-    """Collects one frame's parts into a snapshot, ticks the mission, publishes what it decided."""
+    """Collects one frame's parts, steps the core, publishes what it decided."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("decision_node", **kwargs)
         config = declare_parameters(self, DecisionConfig)
-        self._mission = Mission(config)
         lockstep = bool(self.get_parameter("use_sim_time").value)
-        self._desk = PlanDesk(Planner(config.explorer).plan, config.plan_delay, lockstep)
-        self._join = ExactTimeSynchronizer(tuple(FRAME_PARTS))
-        self._waiting: deque[tuple[int, Parts]] = deque()  # frames that need a plan first
-        self._reported: tuple[int, State] | None = None
+        self._core = make_core(config, lockstep)
+        self._sync = ExactTimeSynchronizer(tuple(FRAME_PARTS))
+        self._waiting: deque[tuple[float, Frame]] = deque()  # [s] of wall time since when
+        self._reported: tuple[int, Any] | None = None  # [ns] and state of the last report
         self._command = self.create_publisher(DriveCommand, topics.COMMAND, qos.FRAME)
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
+        self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
         parts = [
             self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()
         ]
         self.create_subscription(OccupancyGrid, topics.NAVIGATION_MAP, self._on_map, qos.LATCHED)
-        self._make_services()
-        self._action = RunMissionServer(self, self._mission)
+        for request in Request:
+            self.create_service(Trigger, f"~/{request.value}", partial(self._on_request, request))
+        self._action = RunMissionServer(self, self._core)
+        self._wait_timer = self.create_timer(
+            PATIENCE / 5, self._on_wait, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
         peers = {
             "bridge": lambda: self._command.get_subscription_count() > 0,
             "frames": lambda: all(part.get_publisher_count() > 0 for part in parts),
@@ -85,87 +88,88 @@ class DecisionNode(Node):
         """End the action's goal and the planner's thread, then the node."""
         if hasattr(self, "_action"):
             self._action.destroy()
-        if hasattr(self, "_desk"):
-            self._desk.close()
+        if hasattr(self, "_core"):
+            self._core.close()
         super().destroy_node()
 
-    def _make_services(self) -> None:
-        self._serve("start", self._mission.start)
-        self._serve("pause", self._mission.pause)
-        self._serve("resume", self._mission.resume)
-        self._serve("return_home", self._mission.return_home)
-        self._serve("reset", self._reset)
-
-    def _serve(self, name: str, action: Callable[[], bool]) -> None:
-        def answer(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            response.success = action()
-            response.message = f"{name}: {self._mission.state.name}"
-            self.get_logger().info(response.message)
-            return response
-
-        self.create_service(Trigger, f"~/{name}", answer)
-
-    def _reset(self) -> bool:
-        self._mission.reset()
-        self._join.clear()
-        self._desk.clear()
-        self._waiting.clear()
+    def _on_request(
+        self, request: Request, _: Trigger.Request, response: Trigger.Response
+    ) -> Trigger.Response:
+        response.success = self._core.request(request)
+        response.message = f"{request.value}: {self._core.state.name}"
+        self.get_logger().info(response.message)
         self._action.settle()
-        return True
+        return response
 
     def _on_map(self, message: OccupancyGrid) -> None:
-        self._desk.give_map(
-            conversions.stamp_of(message.header.stamp), conversions.grid_of(message)
-        )
+        stamp = conversions.stamp_of(message.header.stamp)
+        self._core.give_map(stamp, conversions.grid_of(message))
         self._work()
 
     def _on_part(self, topic: str, message: Any) -> None:
-        stamp = conversions.stamp_of(message.header.stamp)
-        parts = self._join.add(topic, stamp, message)
-        self._diagnostics.counts["frames_incomplete"] = self._join.dropped
+        parts = self._sync.add(topic, conversions.stamp_of(message.header.stamp), message)
+        self._diagnostics.counts["frames_incomplete"] = self._sync.dropped
         if parts is not None:
-            self._waiting.append((stamp, parts))
+            self._waiting.append((time.monotonic(), _frame_of(parts)))
             self._work()
 
     def _work(self) -> None:
         """Decide on the frames that have all they need, in their order."""
-        while self._waiting and not self._desk.must_wait(self._waiting[0][0]):
-            self._on_frame(*self._waiting.popleft())
+        while self._waiting and self._core.ready(self._waiting[0][1].stamp):
+            self._on_frame(self._waiting.popleft()[1])
 
-    def _on_frame(self, stamp: int, parts: Parts) -> None:
-        snapshot = self._snapshot(stamp, parts)
-        decision = self._mission.tick(snapshot)
+    def _on_wait(self) -> None:
+        """A map that does not come must not hold up the frames for ever."""
+        if self._waiting and time.monotonic() - self._waiting[0][0] > PATIENCE:
+            self._core.stop_waiting()
+            self._work()
+
+    def _on_frame(self, frame: Frame) -> None:
+        failures = self._core.plan_failures
+        decision = self._core.step(frame)
         now = int(self.get_clock().now().nanoseconds)
         self._command.publish(
-            conversions.command_message_of(now, stamp, snapshot.vehicle.run, decision.command)
+            conversions.command_message_of(now, frame.stamp, frame.run, decision.command)
         )
-        if conversions.stamp_of(parts[topics.ROCKS].map_stamp) == stamp:
-            self._desk.ask(stamp, self._mission.plan_request(snapshot))
         self._diagnostics.counts["frames"] += 1
-        self._report(stamp, snapshot, decision)
+        self._diagnostics.counts["plans_failed"] = self._core.plan_failures
+        if self._core.plan_failures > failures:
+            self.get_logger().error(
+                f"planner: {self._core.last_failure}", throttle_duration_sec=PATIENCE
+            )
+        self._report(frame, decision)
 
-    def _snapshot(self, stamp: int, parts: Parts) -> Snapshot:
-        return Snapshot(
-            vehicle=conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS]),
-            nav=conversions.polar_of(parts[topics.NAV_POLAR]),
-            scan=conversions.scan_of(parts[topics.FREE_SCAN]),
-            rocks=conversions.rocks_of(parts[topics.ROCKS]),
-            plan=self._desk.plan_at(stamp),
-        )
-
-    def _report(self, stamp: int, snapshot: Snapshot, decision: Decision) -> None:
+    def _report(self, frame: Frame, decision: Decision) -> None:
         """On every change of state, and twice a second."""
         changed = self._reported is None or self._reported[1] is not decision.state
         if changed:
             self.get_logger().info(f"{decision.state.name}: {decision.reason}")
-        elif self._reported is not None and abs(stamp - self._reported[0]) < REPORT_PERIOD:
+        elif self._reported is not None and abs(frame.stamp - self._reported[0]) < REPORT_PERIOD:
             return
-        self._reported = (stamp, decision.state)
-        report = mission_state_of(stamp, decision)
+        self._reported = (frame.stamp, decision.state)
+        report = mission_state_of(frame.stamp, frame.run, decision)
         self._state.publish(report)
         self._action.on_report(report)
+        self._show(frame)
+
+    def _show(self, frame: Frame) -> None:
+        """Plan and markers, for who looks."""
+        overlay = self._core.mission.overlay()
+        if self._plan.get_subscription_count() > 0 and overlay.path is not None:
+            self._plan.publish(path_message_of(frame.stamp, overlay.path))
         if self._markers.get_subscription_count() > 0:
-            self._markers.publish(markers_of(stamp, snapshot, self._mission.memory))
+            self._markers.publish(markers_of(frame.stamp, frame.rocks, overlay))
+
+
+def _frame_of(parts: Parts) -> Frame:
+    rocks = parts[topics.ROCKS]
+    return Frame(
+        vehicle=conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS]),
+        nav=conversions.polar_of(parts[topics.NAV_POLAR]),
+        scan=conversions.scan_of(parts[topics.FREE_SCAN]),
+        rocks=conversions.rocks_of(rocks),
+        map_stamp=conversions.stamp_of(rocks.map_stamp),
+    )
 
 
 def main() -> None:

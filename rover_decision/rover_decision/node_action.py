@@ -10,9 +10,8 @@ from rclpy.node import Node
 from rover_interfaces.action import RunMission
 from rover_interfaces.msg import MissionState
 
-from rover_decision.mission import Mission
-from rover_decision.run import REASONS, Outcome, Run, refusal
-from rover_decision.states import State
+from rover_decision.core import DecisionCore
+from rover_decision.mission_goal import REASONS, MissionGoal, Outcome, refusal
 
 
 class DeferringActionServer(ActionServer):
@@ -39,24 +38,24 @@ class DeferringActionServer(ActionServer):
 class RunMissionServer:
     """Takes one goal at a time and ends it from the mission's reports."""
 
-    def __init__(self, node: Node, mission: Mission) -> None:
+    def __init__(self, node: Node, core: DecisionCore) -> None:
         self._node = node
-        self._mission = mission
-        self._run: Run | None = None
-        self._handle: ServerGoalHandle | None = None  # of the goal that the run is for
+        self._core = core
+        self._goal: MissionGoal | None = None
+        self._handle: ServerGoalHandle | None = None  # of that goal
         self._report = MissionState()  # the last one
         self._server = DeferringActionServer(
             node,
             RunMission,
             "~/run_mission",
-            goal_callback=self._on_goal,
+            goal_callback=self._on_request,
             handle_accepted_callback=self._on_accepted,
             cancel_callback=self._on_cancel,
         )
 
     def on_report(self, report: MissionState) -> None:
         """Pass a report of the mission on, or end the goal with it."""
-        if self._run is not None and self._run.outcome() is Outcome.RESTARTED:
+        if self._goal is not None and self._goal.outcome() is Outcome.RESTARTED:
             self.settle()  # with what was last reported of the mission before
         self._report = report
         self.settle()
@@ -64,8 +63,8 @@ class RunMissionServer:
             self._handle.publish_feedback(RunMission.Feedback(mission=report))
 
     def settle(self) -> None:
-        """End the goal if its run has ended."""
-        outcome = self._run.outcome() if self._run is not None else None
+        """End the goal when its mission has ended."""
+        outcome = self._goal.outcome() if self._goal is not None else None
         handle = self._handle
         if outcome is None or handle is None:
             return
@@ -76,7 +75,7 @@ class RunMissionServer:
                 handle.canceled()
             case Outcome.RESTARTED:
                 handle.abort()
-        self._run, self._handle = None, None
+        self._goal, self._handle = None, None
         self._node.get_logger().info(f"run_mission: {REASONS[outcome]}")
         result = RunMission.Result(
             outcome=int(outcome), reason=REASONS[outcome], mission=self._report
@@ -87,11 +86,11 @@ class RunMissionServer:
         """Abort the goal, and end the server."""
         if self._handle is not None and self._node.context.ok():
             self._handle.abort()
-        self._run, self._handle = None, None
+        self._goal, self._handle = None, None
         self._server.destroy()
 
-    def _on_goal(self, goal: RunMission.Goal) -> GoalResponse:
-        why_not = refusal(goal.time_limit, self._run)
+    def _on_request(self, goal: RunMission.Goal) -> GoalResponse:
+        why_not = refusal(goal.time_limit, self._goal)
         if why_not:
             self._node.get_logger().warning(f"run_mission: rejected: {why_not}")
             return GoalResponse.REJECT
@@ -99,16 +98,16 @@ class RunMissionServer:
 
     def _on_accepted(self, handle: ServerGoalHandle) -> None:
         self._handle = handle
-        self._run = Run(self._mission, handle.request.time_limit)
-        if self._mission.state is State.IDLE:
-            self._report = MissionState(state_name=State.IDLE.name)
-        self._node.get_logger().info(f"run_mission: accepted: {self._mission.state.name}")
+        self._goal = MissionGoal(self._core, handle.request.time_limit)
+        if self._core.mission.idle:
+            self._report = MissionState(state_name=self._core.state.name)
+        self._node.get_logger().info(f"run_mission: accepted: {self._core.state.name}")
         handle.execute()
 
     def _on_cancel(self, _: ServerGoalHandle) -> CancelResponse:
-        if self._run is not None:
-            self._run.cancel()
-            self._node.get_logger().info(f"run_mission: canceled: {self._mission.state.name}")
+        if self._goal is not None:
+            self._goal.cancel()
+            self._node.get_logger().info(f"run_mission: canceled: {self._core.state.name}")
         # The goal counts as canceling from the answer on; where no frames come it must end as well.
         if self._node.executor is not None:
             self._node.executor.create_task(self.settle)

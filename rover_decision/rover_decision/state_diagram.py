@@ -17,7 +17,7 @@ from statemachine.contrib.diagram.model import (
 from statemachine.contrib.diagram.renderers.mermaid import MermaidRenderer
 from tabulate import tabulate
 
-from rover_decision.states import Event, MissionMachine, State
+from rover_decision.missions.sample_return.chart import Event, MissionChart, State
 
 BEGIN = "<!-- by python -m rover_decision.state_diagram, not by hand -->"
 END = "<!-- end of what it wrote -->"

@@ -1,28 +1,33 @@
-"""Breadcrumbs: where the rover has been."""
+"""Breadcrumbs: where the robot has been, from its start on."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 
-SPACING = 0.5  # [m] between crumbs
 
-
-class Crumbs:
+class Breadcrumbs:
     """The trail since the start."""
 
-    def __init__(self) -> None:
+    def __init__(self, spacing: float) -> None:
+        """spacing [m] between two breadcrumbs."""
+        self._spacing = spacing
         self._points: list[tuple[float, float]] = []
+        self._array: NDArray[np.float64] = np.empty((0, 2))
 
     def drop(self, pose: Pose) -> None:
-        """Leave a crumb when the last one is far enough away."""
+        """Leave a breadcrumb when the last one is far enough away."""
         point = (pose.x, pose.y)
-        if not self._points or np.hypot(*np.subtract(self._points[-1], point)) >= SPACING:
+        if not self._points or math.dist(self._points[-1], point) >= self._spacing:
             self._points.append(point)
 
     @property
     def points(self) -> NDArray[np.float64]:
-        """(n, 2) [m] from the start on."""
-        return np.array(self._points, float).reshape(-1, 2)
+        """(n, 2) [m] from the start on; not to be written to."""
+        if len(self._array) < len(self._points):
+            self._array = np.array(self._points, float).reshape(-1, 2)
+        return self._array

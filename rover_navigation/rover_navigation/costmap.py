@@ -1,8 +1,7 @@
-"""The navigation map as the planner needs it: what is free, what is unknown, how far walls are."""
+"""The navigation map as the planner needs it: what is free, what is unknown, the clearance."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import cv2
@@ -12,26 +11,10 @@ from numpy.typing import NDArray
 from rover_common.grid import GridGeometry
 from rover_common.map_encoding import EDGE, FREE_BELOW
 from rover_common.types import GridMap
+from rover_navigation.scale import Scale
+from rover_navigation.types import BlockedPlace
 
 MARGIN = 12  # [cells] kept around what is known
-TRAIL_RADIUS = 0.5  # [m] around where the rover has been: free when unknown, it was there
-# [m] the same, free whatever the map says; no more, because its wheels pass rocks 0.44 m aside
-UNDER_BODY = 0.25
-# [m] Unknown ground this near to an obstacle is kept away from like one: mostly it is the far side
-# of the rock, or the wall around the corner. An edge there is only driven by with care: where a
-# passage is narrow, edges seen from afar would close it.
-HIDDEN_SIDE = 1.0
-BODY_RADIUS = 1.2  # [m] around the rover, where its camera cannot see: taken as free when unknown
-
-
-@dataclass(frozen=True)
-class Blocked:
-    """A place that proved impassable."""
-
-    x: float  # [m] map frame
-    y: float  # [m]
-    radius: float  # [m]
-    until: float = math.inf  # [s] frame time
 
 
 @dataclass(frozen=True)
@@ -42,9 +25,11 @@ class Costmap:
     free: NDArray[np.bool_]
     unknown: NDArray[np.bool_]  # edges seen from afar as well
     edge: NDArray[np.bool_]
-    # [m] from a cell's centre to the edge of the nearest obstacle, or of what it may hide
+    # [m] from a cell's centre to the border of the nearest obstacle, or of what it may hide
     clearance: NDArray[np.float32]
-    room: NDArray[np.float32]  # [m] the same, and to the edges beside obstacles
+    # [m] the same, to edges beside obstacles as well. Those are only driven by with care: where a
+    # passage is narrow, edges seen from afar would close it.
+    edge_clearance: NDArray[np.float32]
 
     @classmethod
     def of(
@@ -52,37 +37,38 @@ class Costmap:
         grid: GridMap,
         trail: NDArray[np.float64],
         body: tuple[float, float],
-        blocked: tuple[Blocked, ...] = (),
+        scale: Scale,
+        blocked: tuple[BlockedPlace, ...] = (),
     ) -> Costmap:
-        """`trail` (n, 2) [m]: where the rover has been; `body` [m]: where it stands."""
+        """`trail` (n, 2) [m]: where the robot has been; `body` [m]: where it stands."""
         geometry, cells = _crop(grid, body)
         edge = cells == EDGE
         obstacle = (cells >= FREE_BELOW) & ~edge
         unknown = (cells < 0) | edge
-        been = _discs(geometry, trail, TRAIL_RADIUS)
-        here = _discs(geometry, np.array([body]), BODY_RADIUS) & unknown
-        obstacle &= ~_discs(geometry, trail, UNDER_BODY)
+        been = _discs(geometry, trail, scale.trail_radius)
+        here = _discs(geometry, np.array([body]), scale.blind_radius) & unknown
+        obstacle &= ~_discs(geometry, trail, scale.under_body_radius)
         unknown &= ~(been | here)
         for place in blocked:
             disc = _discs(geometry, np.array([[place.x, place.y]]), place.radius)
             obstacle |= disc
             unknown &= ~disc
-        beside = _grown(obstacle, HIDDEN_SIDE / geometry.resolution) & unknown
+        beside = _grown(obstacle, scale.hidden_side / geometry.resolution) & unknown
         return cls(
             geometry,
             ~obstacle & ~unknown,
             unknown,
             edge & unknown,
             clearance=_distance(obstacle | (beside & ~edge), geometry.resolution),
-            room=_distance(obstacle | beside, geometry.resolution),
+            edge_clearance=_distance(obstacle | beside, geometry.resolution),
         )
 
 
 def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArray[np.int8]]:
-    """The known part of the map with a margin."""
+    """The known part of the map and the body, with a margin; never empty."""
     whole = _geometry(grid.resolution, grid.cells.shape, grid.origin_x, grid.origin_y)
     known = grid.cells >= 0
-    row, col = (int(i) for i in whole.cell_of(*body))
+    row, col = (int(i) for i in whole.nearest_cell_to(*body))
     bounds = []
     for axis, at in ((1, row), (0, col)):
         indices = np.flatnonzero(known.any(axis=axis))
@@ -103,7 +89,7 @@ def _geometry(resolution: float, shape: tuple[int, ...], x: float, y: float) -> 
 
 
 def _distance(mask: NDArray[np.bool_], resolution: float) -> NDArray[np.float32]:
-    """[m] from each cell's centre to the edge of the nearest true cell."""
+    """[m] from each cell's centre to the border of the nearest true cell."""
     cells = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5)
     return np.maximum(0.0, np.asarray(cells, np.float32) * resolution - resolution / 2)
 
@@ -116,7 +102,7 @@ def _grown(mask: NDArray[np.bool_], cells: float) -> NDArray[np.bool_]:
 
 
 def _discs(geometry: GridGeometry, points: NDArray[np.float64], radius: float) -> NDArray[np.bool_]:
-    """Cells within a radius [m] of any of the points (n, 2) [m]."""
+    """Cells within a radius [m] of any of the points (n, 2) [m], which may lie outside."""
     mask = np.zeros((geometry.rows, geometry.cols), np.uint8)
     rows, cols = geometry.cell_of(points[:, 0], points[:, 1])
     for row, col in zip(rows.tolist(), cols.tolist(), strict=True):

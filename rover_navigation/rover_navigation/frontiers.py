@@ -10,12 +10,9 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_navigation.costmap import Costmap
+from rover_navigation.scale import Scale
 
-# [cells] 2.5 m: no way on is as narrow, and what a shorter border hides is not worth the way there
-SMALLEST = 10
-# [m] of ground that may hide between the foot of a wall as seen from afar and the wall
-STRIP_DEPTH = 0.75
-# of an unknown patch amid known ground: the rest of it is the rock that hid it
+# of an unknown patch amid known ground: the rest of it is the obstacle that hid it
 PATCH_SHARE = 0.5
 SQUARE = np.ones((3, 3), np.uint8)
 
@@ -27,35 +24,40 @@ class Frontier:
     resolution: float  # [m] of its cells
     x: NDArray[np.float64]  # (n,) [m] map frame, its cells
     y: NDArray[np.float64]  # (n,) [m]
-    open: NDArray[np.bool_]  # (n,) not just the foot of a wall that was seen from afar
-    behind: NDArray[np.float64]  # (n,) [m^2] of connected unknown ground; inf: no end known
+    open: NDArray[np.bool_]  # (n,) not just the base of a wall that was seen from afar
+    unknown_area: NDArray[np.float64]  # (n,) [m^2] connected unknown ground; inf: no end known
 
     @property
     def length(self) -> int:
         """[cells]"""
         return len(self.x)
 
-    @property
-    def leads_on(self) -> bool:
+    def leads_on(self, scale: Scale) -> bool:
         """Whether there may be a way on behind it; else it is a strip along a wall."""
-        return int(np.count_nonzero(self.open)) >= SMALLEST
+        return int(np.count_nonzero(self.open)) >= scale.frontier_length / self.resolution
 
-    @property
-    def hides(self) -> float:
+    def hidden_area(self, scale: Scale) -> float:
         """[m^2] of ground that there may be behind it; inf where no end of it is known."""
-        patch = PATCH_SHARE * float(self.behind.max())
-        return patch if self.leads_on else min(patch, self.length * self.resolution * STRIP_DEPTH)
+        patch = PATCH_SHARE * float(self.unknown_area.max())
+        if self.leads_on(scale):
+            return patch
+        return min(patch, self.length * self.resolution * scale.strip_depth)
 
 
-def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Frontier]:
-    """All borders of some length, the longest first; `visited` (n, 3) [m] as for near_visited."""
+def find_frontiers(
+    costmap: Costmap, blacklisted: NDArray[np.float64], scale: Scale
+) -> list[Frontier]:
+    """All borders of some length, the longest first; `blacklisted` (n, 3) as for in_discs.
+
+    A shorter border is no way on, and what it hides is not worth the time to get there.
+    """
     # Unknown slivers of less than three cells vanish: they are grazed walls.
     unknown = np.asarray(
         cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE), np.uint8
     )
     border = costmap.free & (cv2.dilate(unknown, SQUARE) > 0)
     rows, cols = np.nonzero(border)
-    border[rows, cols] = ~near_visited(*costmap.geometry.center_of(rows, cols), visited)
+    border[rows, cols] = ~in_discs(*costmap.geometry.center_of(rows, cols), blacklisted)
     labels, count = ndimage.label(border, structure=SQUARE)
     if count == 0:
         return []
@@ -65,11 +67,12 @@ def find_frontiers(costmap: Costmap, visited: NDArray[np.float64]) -> list[Front
     rows, cols = rows[order], cols[order]
     nothing = (costmap.unknown & ~costmap.edge).astype(np.uint8)
     is_open = cv2.dilate(nothing, SQUARE)[rows, cols] > 0
-    behind = cv2.dilate(_areas(unknown, costmap.geometry.resolution), SQUARE)[rows, cols]
-    columns = (*costmap.geometry.center_of(rows, cols), is_open, behind)
+    resolution = costmap.geometry.resolution
+    area = cv2.dilate(_areas(unknown, resolution), SQUARE)[rows, cols]
+    columns = (*costmap.geometry.center_of(rows, cols), is_open, area)
     parts = zip(*(np.split(column, ends[:-1]) for column in columns), strict=True)
-    frontiers = [Frontier(costmap.geometry.resolution, *part) for part in parts]
-    large = [frontier for frontier in frontiers if frontier.length >= SMALLEST]
+    frontiers = [Frontier(resolution, *part) for part in parts]
+    large = [f for f in frontiers if f.length >= scale.frontier_length / resolution]
     return sorted(large, key=lambda frontier: -frontier.length)
 
 
@@ -83,9 +86,9 @@ def _areas(unknown: NDArray[np.uint8], resolution: float) -> NDArray[np.float32]
     return np.asarray(areas[labels])
 
 
-def near_visited(
-    x: NDArray[np.float64], y: NDArray[np.float64], visited: NDArray[np.float64]
+def in_discs(
+    x: NDArray[np.float64], y: NDArray[np.float64], discs: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Whether points (m,) [m] lie in the discs (n, 3) of places visited: x, y, radius [m]."""
-    away = np.hypot(x - visited[:, :1], y - visited[:, 1:2])
-    return np.asarray((away < visited[:, 2:]).any(axis=0))
+    """Whether points (m,) [m] lie in any of the discs (n, 3): x, y, radius [m]."""
+    away = np.hypot(x - discs[:, :1], y - discs[:, 1:2])
+    return np.asarray((away < discs[:, 2:]).any(axis=0))

@@ -1,4 +1,4 @@
-"""The free ground ahead, as the free scan shows it."""
+"""The free ground around the robot, as one scan shows it."""
 
 from __future__ import annotations
 
@@ -10,17 +10,19 @@ from numpy.typing import NDArray
 
 from rover_common.types import FreeScan
 
+CANDIDATE_STEP = math.radians(4.0)  # between two directions that are tried
+
 
 @dataclass(frozen=True)
-class Terrain:
-    """Obstacle points of one scan, and the width that the rover needs."""
+class LocalClearance:
+    """Obstacle points of one scan, and the width that the robot needs."""
 
     bearings: NDArray[np.floating]  # (n,) [rad] left positive
     ranges: NDArray[np.floating]  # (n,) [m], finite
     corridor: float  # [m] half width
 
     @classmethod
-    def of(cls, scan: FreeScan, corridor: float) -> Terrain:
+    def of(cls, scan: FreeScan, corridor: float) -> LocalClearance:
         ranges = np.asarray(np.minimum(scan.ranges, scan.range_max), np.float64)
         bearings = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
         return cls(bearings, ranges, corridor)
@@ -47,22 +49,22 @@ class Terrain:
         """
         if len(self.ranges) == 0:
             return wanted
-        step = max(1, round(math.radians(4.0) / max(1e-3, self._increment())))
+        step = max(1, round(CANDIDATE_STEP / max(1e-3, self._increment())))
         candidates = self.bearings[::step]
         free = self._clearances(candidates)
-        open_way = free >= length
-        if not open_way.any():
+        is_open = free >= length
+        if not is_open.any():
             return float(candidates[np.argmax(free)])
-        distance = np.where(open_way, np.abs(candidates - wanted), np.inf)
+        distance = np.where(is_open, np.abs(candidates - wanted), np.inf)
         return float(candidates[np.argmin(distance)])
 
-    def way(self, length: float) -> float | None:
+    def open_bearing(self, length: float) -> float | None:
         """The bearing nearest to straight ahead that is free for `length` [m], if there is one."""
         bearing = self.best_bearing(0.0, length)
         return bearing if self.clearance(bearing) >= length else None
 
-    def roomier_side(self) -> int:
-        """+1 where there is more room to the left, else -1."""
+    def wider_side(self) -> int:
+        """+1 where there is more free ground to the left, else -1."""
         left, right = self.ranges[self.bearings > 0], self.ranges[self.bearings < 0]
         return 1 if left.sum() >= right.sum() else -1
 

@@ -1,4 +1,4 @@
-"""Follow a way: pure pursuit, at the speed that bends, room and the vehicle allow."""
+"""Path tracking: pure pursuit, at the speed that curves, clearance and the vehicle allow."""
 
 from __future__ import annotations
 
@@ -7,103 +7,109 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.geometry import Pose, wrap_angle
+from rover_common.geometry import Pose, bearing_to
 from rover_common.types import Command
-from rover_common.vehicle import MAX_SPEED, WHEELBASE
-from rover_navigation import actuation as motion
-from rover_navigation.local_clearance import Terrain
-from rover_navigation.types import Way
+from rover_navigation.actuation import COMFORT_DECELERATION, Actuation, approach_speed
+from rover_navigation.local_clearance import LocalClearance
+from rover_navigation.types import Path
 
 LOOKAHEAD_SECONDS = 0.8  # [s] of driving
 LOOKAHEAD = (1.2, 3.0)  # [m] least and most
-BEND_REACH = 2  # points before and after, between which a bend is measured
-HORIZON = 15.0  # [m] of the way that decides on the speed
-BEND_MARGIN = 0.8  # of the vehicle's sharpest bend
-# [m/s] The sharpest bend has a radius of 2.8 m at rest and of 3.4 m at this speed: to go slower
-# gains little, and where even that is too wide, the rover turns on the spot.
-BEND_SLOWEST = 1.2
-SHARP = math.radians(65.0)  # beyond, the rover turns on the spot
-ALIGNED = math.radians(15.0)  # until here, once it stands
-STANDING = 0.3  # [m/s]
+CURVE_REACH = 2  # points before and after, between which a curve is measured
+HORIZON = 15.0  # [m] of the path that decides on the speed
+CURVE_MARGIN = 0.8  # of the vehicle's sharpest curve
+# [m/s] The sharpest curve has a radius of 2.8 m at rest and of 3.4 m at this speed: to go slower
+# gains little, and where even that is too wide, the robot turns in place.
+CURVE_SPEED_MIN = 1.2
+SHARP = math.radians(65.0)  # beyond, the robot turns in place
+ALIGNED = math.radians(15.0)  # until here, once it is that slow
+TURNING_SPEED = 0.3  # [m/s]
 END_REACHED = 1.0  # [m]
-STEP_DOWN = 0.4  # [m/s] slowest on a way
+SPEED_MIN = 0.4  # [m/s] on a path
+STOP_MARGIN = 0.8  # [m] between an obstacle and where the robot would stop
 
 
-def follow(pose: Pose, speed: float, way: Way, terrain: Terrain, top_speed: float) -> Command:
-    """The command for this frame; the way must not be empty."""
-    ahead = remaining(way, pose)
-    reach = float(np.clip(LOOKAHEAD_SECONDS * abs(speed), *LOOKAHEAD))
-    bearing, distance = _towards(pose, _point_at(ahead.points, pose, reach))
-    if abs(bearing) > (ALIGNED if abs(speed) < STANDING else SHARP) and distance > 0.3:
-        return motion.turn_in_place(speed, bearing)
-    free = min(terrain.clearance(bearing), terrain.clearance(bearing / 2))
-    target = min(
-        top_speed,
-        motion.approach_speed(free - 0.8),
-        _speed_along(ahead, pose),
-    )
-    curvature = 2.0 * math.sin(bearing) / max(distance, 0.5)
-    return motion.drive_curve(speed, max(STEP_DOWN, target), curvature)
+class PathTracker:
+    """Tracks paths with one vehicle."""
+
+    def __init__(self, actuation: Actuation, top_speed: float) -> None:
+        """top_speed [m/s] on open ground."""
+        self._actuation = actuation
+        self._top_speed = top_speed
+
+    def command(self, pose: Pose, speed: float, path: Path, local: LocalClearance) -> Command:
+        """The command for this frame; the path must not be empty."""
+        ahead = remaining(path, pose)
+        reach = float(np.clip(LOOKAHEAD_SECONDS * abs(speed), *LOOKAHEAD))
+        x, y = _point_at(ahead.points, pose, reach)
+        bearing, distance = bearing_to(pose, x, y), math.hypot(x - pose.x, y - pose.y)
+        limit = ALIGNED if abs(speed) < TURNING_SPEED else SHARP
+        if abs(bearing) > limit and distance > 0.3:
+            return self._actuation.turn_in_place(speed, bearing)
+        free = min(local.clearance(bearing), local.clearance(bearing / 2))
+        target = min(
+            self._top_speed, approach_speed(free - STOP_MARGIN), self._speed_along(ahead, pose)
+        )
+        curvature = 2.0 * math.sin(bearing) / max(distance, 0.5)
+        return self._actuation.drive_curve(speed, max(SPEED_MIN, target), curvature)
+
+    def _speed_along(self, path: Path, pose: Pose) -> float:
+        """The speed now from which all limits ahead can still be met by gentle braking."""
+        points = np.concatenate([[(pose.x, pose.y)], path.points])
+        steps = np.hypot(*np.diff(points, axis=0).T)
+        distance = np.cumsum(steps)
+        near = distance < HORIZON
+        limit = np.minimum(path.speeds, self._curve_speeds(path.points))[near]
+        allowed = np.sqrt(limit**2 + 2.0 * COMFORT_DECELERATION * distance[near])
+        end = approach_speed(float(distance[-1])) if near.all() else math.inf
+        return min(float(allowed.min(initial=math.inf)), end)
+
+    def _curve_speeds(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Speed limit (n,) [m/s] at each point by the curve there: wheels turn less at speed."""
+        model = self._actuation.vehicle
+        speeds = np.full(len(points), model.max_speed)
+        if len(points) <= 2 * CURVE_REACH:
+            return speeds
+        before = points[CURVE_REACH:-CURVE_REACH] - points[: -2 * CURVE_REACH]
+        after = points[2 * CURVE_REACH :] - points[CURVE_REACH:-CURVE_REACH]
+        cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+        angle = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
+        length = 0.5 * (np.hypot(*before.T) + np.hypot(*after.T))
+        curvature = angle / np.maximum(length, 1e-3) / CURVE_MARGIN
+        wheel = np.arctan(curvature * model.wheelbase / model.yaw_factor)
+        loss = (model.wheel_at_rest - model.wheel_at_max_speed) / model.max_speed  # [rad s/m]
+        limit = np.clip((model.wheel_at_rest - wheel) / loss, CURVE_SPEED_MIN, model.max_speed)
+        speeds[CURVE_REACH:-CURVE_REACH] = limit
+        return speeds
 
 
-def remaining(way: Way, pose: Pose) -> Way:
-    """The way from its point nearest to the rover on."""
-    away = np.hypot(way.points[:, 0] - pose.x, way.points[:, 1] - pose.y)
+def remaining(path: Path, pose: Pose) -> Path:
+    """The path from its point nearest to the robot on."""
+    away = np.hypot(path.points[:, 0] - pose.x, path.points[:, 1] - pose.y)
     nearest = int(np.argmin(away))
-    return Way(way.points[nearest:], way.speeds[nearest:])
+    return Path(path.points[nearest:], path.speeds[nearest:])
 
 
-def bearing_of(pose: Pose, way: Way) -> float:
-    """Bearing [rad] of the way a few steps ahead of the rover."""
-    ahead = remaining(way, pose)
-    return _towards(pose, _point_at(ahead.points, pose, LOOKAHEAD[0]))[0]
+def path_bearing(pose: Pose, path: Path) -> float:
+    """Bearing [rad] of the path a few steps ahead of the robot."""
+    ahead = remaining(path, pose)
+    return bearing_to(pose, *_point_at(ahead.points, pose, LOOKAHEAD[0]))
 
 
-def at_end(pose: Pose, way: Way) -> bool:
-    """Whether the rover has come to the way's last point."""
-    x, y = way.points[-1]
+def at_end(pose: Pose, path: Path) -> bool:
+    """Whether the robot has come to the path's last point."""
+    x, y = path.points[-1]
     return math.hypot(x - pose.x, y - pose.y) < END_REACHED
 
 
-def bearing_to(pose: Pose, x: float, y: float) -> float:
-    """[rad] left positive, of a point [m] in the map frame."""
-    return wrap_angle(math.atan2(y - pose.y, x - pose.x) - pose.yaw)
+def path_length(path: Path, pose: Pose) -> float:
+    """What is left of a path [m], from the robot on."""
+    steps = np.hypot(*np.diff(path.points, axis=0).T)
+    return float(steps.sum()) + math.hypot(*(path.points[0] - (pose.x, pose.y)))
 
 
-def _point_at(points: NDArray[np.float64], pose: Pose, reach: float) -> NDArray[np.float64]:
+def _point_at(points: NDArray[np.float64], pose: Pose, reach: float) -> tuple[float, float]:
     """The first point at least `reach` [m] away, else the last."""
     far = np.flatnonzero(np.hypot(points[:, 0] - pose.x, points[:, 1] - pose.y) >= reach)
-    return np.asarray(points[far[0] if len(far) else -1])
-
-
-def _towards(pose: Pose, point: NDArray[np.float64]) -> tuple[float, float]:
-    dx, dy = float(point[0]) - pose.x, float(point[1]) - pose.y
-    return wrap_angle(math.atan2(dy, dx) - pose.yaw), math.hypot(dx, dy)
-
-
-def _speed_along(way: Way, pose: Pose) -> float:
-    """The speed now from which all limits ahead can still be met by gentle braking."""
-    points = np.concatenate([[(pose.x, pose.y)], way.points])
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    distance = np.cumsum(steps)
-    near = distance < HORIZON
-    limit = np.minimum(way.speeds, _bend_speeds(way.points))[near]
-    allowed = np.sqrt(limit**2 + 2.0 * motion.COMFORT_DECELERATION * distance[near])
-    end = motion.approach_speed(float(distance[-1])) if near.all() else math.inf
-    return min(float(allowed.min(initial=math.inf)), end)
-
-
-def _bend_speeds(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Speed limit (n,) [m/s] at each point by the bend there: wheels turn less at speed."""
-    speeds = np.full(len(points), MAX_SPEED)
-    if len(points) <= 2 * BEND_REACH:
-        return speeds
-    before = points[BEND_REACH:-BEND_REACH] - points[: -2 * BEND_REACH]
-    after = points[2 * BEND_REACH :] - points[BEND_REACH:-BEND_REACH]
-    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    angle = np.abs(np.arctan2(cross, (before * after).sum(axis=1)))
-    length = 0.5 * (np.hypot(*before.T) + np.hypot(*after.T))
-    curvature = angle / np.maximum(length, 1e-3) / BEND_MARGIN
-    wheel = np.degrees(np.arctan(curvature * WHEELBASE / motion.YAW_FACTOR))
-    speeds[BEND_REACH:-BEND_REACH] = np.clip((15.0 - wheel) / 2.0, BEND_SLOWEST, MAX_SPEED)
-    return speeds
+    x, y = points[far[0] if len(far) else -1]
+    return float(x), float(y)

@@ -12,11 +12,14 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
 from rover_common.types import GridMap
-from rover_navigation.types import Plan, PlanRequest
+from rover_navigation.types import Plan, PlanFailed, PlanRequest
 
-MOST_PENDING = 8  # requests whose map never came
+MAX_PENDING = 8  # orders whose map never came
+# [s] of wall time that lockstep waits for a plan, which takes 0.05 s: then the planner hangs.
+PATIENCE = 10.0
 
 MakeRequest = Callable[[GridMap], PlanRequest]
+MakePlan = Callable[[PlanRequest], Plan]
 
 
 @dataclass
@@ -26,30 +29,50 @@ class _Order:
     future: Future[Plan] | None = None
 
 
-class PlanDesk:
-    """Takes requests and maps, hands out plans."""
+@dataclass(frozen=True)
+class PlanStatus:
+    """What the planner has said up to a frame."""
 
-    def __init__(self, plan: Callable[[PlanRequest], Plan], delay: float, lockstep: bool) -> None:
-        """delay: [s] of frame time from the request to its effect; lockstep: wait for it then."""
+    plan: Plan | None = None  # the newest one that came
+    failure: PlanFailed | None = None  # the newest answer, when it was no plan
+
+
+class PlanScheduler:
+    """Takes orders and maps, hands out plans. A planner's failure is a value, never an exception."""
+
+    def __init__(
+        self, plan: MakePlan, delay: float, lockstep: bool, patience: float = PATIENCE
+    ) -> None:
+        """delay: [s] of frame time from the order to its effect; lockstep: wait for it then."""
         self._plan = plan
         self._delay = round(delay * 1e9)
         self._lockstep = lockstep
-        self._pool = ThreadPoolExecutor(1, thread_name_prefix="planner")
-        self.clear()
-
-    def clear(self) -> None:
-        """Forget all requests and the plan in force."""
+        self._patience = patience
+        self._pool = _pool()
         self._orders: deque[_Order] = deque()
         self._map: tuple[int, GridMap] | None = None  # the newest
-        self._current: Plan | None = None
+        self._status = PlanStatus()
+        self.failures = 0  # in all
+        self.last_failure = ""  # why the newest of them did not come
+
+    def begin(self, start: int) -> None:
+        """A new run begins at a stamp [ns]: forget all that is older, and the plan in force."""
+        for order in self._orders:
+            if order.future is not None:
+                order.future.cancel()
+        self._orders.clear()
+        if self._map is not None and self._map[0] < start:
+            self._map = None
+        self._status = PlanStatus()
 
     def close(self) -> None:
-        self._pool.shutdown(wait=True, cancel_futures=True)
+        """End the planner's thread; one that hangs is left to itself."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
 
-    def ask(self, stamp: int, make_request: MakeRequest) -> None:
+    def order(self, stamp: int, make_request: MakeRequest) -> None:
         """Order a plan at a frame; its map, of the same stamp, may come before or after."""
         self._orders.append(_Order(stamp, make_request))
-        if len(self._orders) > MOST_PENDING:
+        if len(self._orders) > MAX_PENDING:
             self._orders.popleft()
         self._start()
 
@@ -58,21 +81,53 @@ class PlanDesk:
         self._map = (stamp, grid)
         self._start()
 
-    def must_wait(self, stamp: int) -> bool:
-        """Whether the frame needs a plan whose map has not come; never so when not in lockstep."""
-        return self._lockstep and any(
+    def ready(self, stamp: int) -> bool:
+        """Whether the maps of all plans that count at a frame have come; not in lockstep: always."""
+        return not self._lockstep or not any(
             order.future is None and self._counts(order, stamp) for order in self._orders
         )
 
-    def plan_at(self, stamp: int) -> Plan | None:
-        """The plan in force at a frame."""
+    def drop_waiting(self) -> None:
+        """The maps of the orders that still wait for one will not come: they have failed."""
+        for order in [order for order in self._orders if order.future is None]:
+            self._orders.remove(order)
+            self._take(PlanFailed(order.stamp, "its map did not come"))
+
+    def status_at(self, stamp: int) -> PlanStatus:
+        """What counts at a frame."""
         while self._orders and self._counts(self._orders[0], stamp):
             order = self._orders[0]
             if order.future is None or not (self._lockstep or order.future.done()):
                 break
-            self._current = order.future.result()
             self._orders.popleft()
-        return self._current
+            self._take(self._outcome(order))
+        return self._status
+
+    def _take(self, outcome: Plan | PlanFailed) -> None:
+        if isinstance(outcome, Plan):
+            self._status = PlanStatus(outcome)
+        else:
+            self._status = PlanStatus(self._status.plan, outcome)
+            self.failures += 1
+            self.last_failure = outcome.reason
+
+    def _outcome(self, order: _Order) -> Plan | PlanFailed:
+        assert order.future is not None
+        try:
+            return order.future.result(self._patience)
+        except Exception as error:  # whatever it is, the drive path must not end with it
+            if not order.future.done():
+                self._replace_pool()
+                return PlanFailed(order.stamp, f"no plan within {self._patience:g} s")
+            return PlanFailed(order.stamp, f"{type(error).__name__}: {error}")
+
+    def _replace_pool(self) -> None:
+        """The planner's thread hangs: go on with a new one, and order anew what waits for it."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        self._pool = _pool()
+        for order in self._orders:
+            order.future = None
+        self._start()
 
     def _start(self) -> None:
         if self._map is None:
@@ -80,7 +135,15 @@ class PlanDesk:
         stamp, grid = self._map
         for order in self._orders:
             if order.future is None and order.stamp <= stamp:
-                order.future = self._pool.submit(self._plan, order.make_request(grid))
+                order.future = self._pool.submit(self._make, order.make_request, grid)
+
+    def _make(self, make_request: MakeRequest, grid: GridMap) -> Plan:
+        """In the planner's thread."""
+        return self._plan(make_request(grid))
 
     def _counts(self, order: _Order, stamp: int) -> bool:
         return stamp >= order.stamp + self._delay
+
+
+def _pool() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(1, thread_name_prefix="planner")

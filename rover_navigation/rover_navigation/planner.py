@@ -1,155 +1,151 @@
-"""One plan: from the map, the rocks and the pose to the next goal and the way there."""
+"""One plan: from the map, the targets and the pose to the next goal and the path there."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.geometry import Pose, wrap_angle
-from rover_common.vehicle import MAX_STEERING, TURN_IN_PLACE_RATE
-from rover_navigation.breadcrumb_path import way_over_crumbs
+from rover_navigation.breadcrumb_path import breadcrumb_path
 from rover_navigation.costmap import Costmap
-from rover_navigation.coverage import hiding_places
-from rover_navigation.frontiers import Frontier, find_frontiers, near_visited
-from rover_navigation.path_smoothing import drivable_way
+from rover_navigation.coverage import unsearched_cells
+from rover_navigation.frontiers import Frontier, find_frontiers, in_discs
+from rover_navigation.path_smoothing import smooth_path
 from rover_navigation.region import Region
-from rover_navigation.roadmap import Roadmap, Ways
-from rover_navigation.tour import MOST_STOPS, tour_costs
-from rover_navigation.types import (
-    NO_WAY,
-    Goal,
-    GoalKind,
-    Plan,
-    PlanRequest,
-)
+from rover_navigation.roadmap import Roadmap, ShortestPaths
+from rover_navigation.scale import Scale
+from rover_navigation.selection import Selection, Stop
+from rover_navigation.tour import MOST_STOPS
+from rover_navigation.types import NO_PATH, Goal, GoalKind, Path, Plan, PlanRequest
 
-REACH_FROM_BODY = 3.0  # [m] to the nearest drivable cell, from where the rover or its home is
-REACH_OF_FRONTIER = 10.0  # [m] from the place to look at it from
-REACH_OF_ROCK = 2.5  # [m] from the end of the way, where the approach by sight takes over
-SAME_GOAL = 4.0  # [m] a goal this near to the last one is the same, seen anew
-LOYALTY = 4.0  # [s] that another goal must save before the rover turns to it
-TURN_SECONDS = 2.0  # [s] to stop for a turn on the spot, and to gather speed again
-SHARP = math.radians(60.0)  # a turn that is made on the spot
-# [m] A rock in the open shows from the first on in every look, one half buried or behind the swell
-# of a wall's foot from the second on.
-SEARCH_DISTANCES = (5.0, 3.0)
-# What little ground a frontier may hide is worth this detour: a canyon's ground takes about a
-# quarter of it.
-SECONDS_PER_AREA = 1.5  # [s/m^2]
-STOP_SECONDS = 3.0  # to brake, turn and gather speed again, which the ways do not count
-DOUBTFUL_SECONDS = 8.0  # [s] of detour to look again at what was looked at in vain
+RETRY_SECONDS = 8.0  # [s] of detour that a goal is worth which was observed without result before
 MOST_SMALL = 4  # stops of limited worth that are considered
-UNKNOWN_DEPTH = 8.0  # [m] of ground guessed behind each metre of a frontier
 
 
 @dataclass(frozen=True)
-class _Stop:
-    goal: Goal
-    node: int
-    worth: float = math.inf  # [s] that it may take
+class _Site:
+    """The map of one request, and what can be reached on it."""
+
+    costmap: Costmap
+    roadmap: Roadmap
+    paths: ShortestPaths  # from the robot
+    reachable: Region
+
+    @property
+    def seconds(self) -> NDArray[np.float64]:
+        """(nodes,) [s] to get there."""
+        return np.asarray(self.paths.seconds[0])
+
+    def path_to(self, node: int) -> NDArray[np.float64]:
+        """(n, 2) [m]"""
+        return self.roadmap.path(self.paths, 0, node)
 
 
 class Planner:
     """Stateless: the same request gives the same plan."""
 
-    def __init__(self, explorer: str) -> None:
-        """explorer: tour (all stops in the best order) or frontier (the nearest)."""
-        self._whole_tour = explorer != "frontier"
+    def __init__(self, scale: Scale, selection: Selection) -> None:
+        """selection: which of the stops comes first."""
+        self._scale = scale
+        self._selection = selection
 
     def plan(self, request: PlanRequest) -> Plan:
         """The plan for a request; its goal is None when nothing is left to do out there."""
-        pose = request.pose
-        costmap = Costmap.of(request.grid, request.trail, (pose.x, pose.y), request.blocked)
-        roadmap = Roadmap(costmap)
-        frontiers = find_frontiers(costmap, request.visited)
-        start = Region.everywhere(roadmap).node_at((pose.x, pose.y), REACH_FROM_BODY)
+        body = (request.pose.x, request.pose.y)
+        costmap = Costmap.of(request.grid, request.trail, body, self._scale, request.blocked)
+        frontiers = find_frontiers(costmap, request.blacklisted, self._scale)
+        centers = _centers(frontiers)
+        explored = _explored(costmap, frontiers, self._scale.unknown_depth)
+        roadmap = Roadmap(costmap, self._scale)
+        everywhere = Region.everywhere(roadmap, self._scale.wide_reach)
+        start = everywhere.node_at(body, self._scale.body_reach)
         if start < 0:
             return Plan(
-                request.stamp,
-                None,
-                NO_WAY,
-                NO_WAY,
-                math.inf,
-                _centers(frontiers),
-                _explored(costmap, frontiers),
-                placed=False,
+                request.stamp, None, NO_PATH, NO_PATH, math.inf, centers, explored, placed=False
             )
-        ways = roadmap.ways_from([start])
-        reachable = Region(roadmap, np.isfinite(ways.seconds[0]))
-        home = reachable.node_at(request.home, REACH_FROM_BODY)
-        stops = self._stops(request, reachable, ways.seconds[0], frontiers)
-        goal_way, goal = NO_WAY, None
-        best = self._choose(request, roadmap, ways, stops, home)
-        if best is None and request.search:
-            best = _search(request, costmap, reachable, ways.seconds[0])
-        if best is not None:
-            goal, goal_way = best.goal, drivable_way(roadmap.way(ways, 0, best.node), costmap)
-        home_way, home_seconds = NO_WAY, math.inf
-        if home >= 0:
-            home_way = drivable_way(roadmap.way(ways, 0, home), costmap)
-            home_seconds = float(ways.seconds[0, home])
-        if request.home_by_crumbs:
-            crumbs = way_over_crumbs(request.trail, (pose.x, pose.y), costmap)
-            home_way = drivable_way(crumbs, costmap)
-        explored = _explored(costmap, frontiers)
-        return Plan(
-            request.stamp, goal, goal_way, home_way, home_seconds, _centers(frontiers), explored
-        )
+        paths = roadmap.shortest_paths([start])
+        reachable = Region(roadmap, np.isfinite(paths.seconds[0]), self._scale.wide_reach)
+        site = _Site(costmap, roadmap, paths, reachable)
+        home = reachable.node_at(request.home, self._scale.body_reach)
+        goal, path = self._next_goal(request, site, frontiers, home)
+        home_seconds = float(site.seconds[home]) if home >= 0 else math.inf
+        home_path = self._home_path(request, site, home)
+        return Plan(request.stamp, goal, path, home_path, home_seconds, centers, explored)
 
-    def _stops(
-        self,
-        request: PlanRequest,
-        reachable: Region,
-        seconds: NDArray[np.float64],
-        frontiers: list[Frontier],
-    ) -> list[_Stop]:
-        """The nearest of what is left: rocks and frontiers; `seconds` (nodes,) to get there."""
-        found: list[_Stop] = []
-        for rock in request.rocks:
-            node = _node_near(reachable, (rock.x, rock.y), REACH_OF_ROCK)
-            found.append(_Stop(Goal(GoalKind.ROCK, rock.x, rock.y, rock.id), node))
-        for frontier in frontiers:
-            nodes = reachable.nodes_near(frontier.x, frontier.y, REACH_OF_FRONTIER)
-            cost = np.where(nodes >= 0, seconds[nodes], np.inf)
-            nearest = int(np.argmin(cost))
-            x, y = float(frontier.x[nearest]), float(frontier.y[nearest])
-            worth = SECONDS_PER_AREA * frontier.hides - STOP_SECONDS
-            if near_visited(frontier.x, frontier.y, request.doubtful).any():
-                worth = min(worth, DOUBTFUL_SECONDS)
-            found.append(_Stop(Goal(GoalKind.FRONTIER, x, y), int(nodes[nearest]), worth))
+    def _next_goal(
+        self, request: PlanRequest, site: _Site, frontiers: list[Frontier], home: int
+    ) -> tuple[Goal | None, Path]:
+        """The stop to go to first and the path there; None when none is worth the time."""
+        stops = self._nearest_stops(request, site, frontiers)
+        best = self._selection.first(request, site.roadmap, site.paths, stops, home)
+        if best is None and request.search:
+            best = self._search(request, site)
+        if best is None:
+            return None, NO_PATH
+        return best.goal, smooth_path(site.path_to(best.node), site.costmap, self._scale)
+
+    def _home_path(self, request: PlanRequest, site: _Site, home: int) -> Path:
+        if request.home_by_breadcrumbs:
+            body = (request.pose.x, request.pose.y)
+            points = breadcrumb_path(request.trail, body, site.costmap, self._scale)
+        elif home >= 0:
+            points = site.path_to(home)
+        else:
+            return NO_PATH
+        return smooth_path(points, site.costmap, self._scale)
+
+    def _nearest_stops(
+        self, request: PlanRequest, site: _Site, frontiers: list[Frontier]
+    ) -> list[Stop]:
+        """The nearest of what is left: targets and frontiers."""
+        found = [
+            Stop(
+                Goal(GoalKind.TARGET, target.x, target.y, target.id),
+                _node_near(site.reachable, (target.x, target.y), target.reach),
+                target.worth,
+            )
+            for target in request.targets
+        ]
+        found += [self._stop_at(frontier, request, site) for frontier in frontiers]
         found = [stop for stop in found if stop.node >= 0]
         large = [stop for stop in found if math.isinf(stop.worth)]
-        large = sorted(large, key=lambda stop: float(seconds[stop.node]))
+        large = sorted(large, key=lambda stop: float(site.seconds[stop.node]))
         small = [stop for stop in found if 0.0 < stop.worth < math.inf]
-        small = sorted(small, key=lambda stop: float(seconds[stop.node]) - stop.worth)[:MOST_SMALL]
+        small = sorted(small, key=lambda stop: float(site.seconds[stop.node]) - stop.worth)
+        small = small[:MOST_SMALL]
         return large[: MOST_STOPS - len(small)] + small
 
-    def _choose(
-        self, request: PlanRequest, roadmap: Roadmap, ways: Ways, stops: list[_Stop], home: int
-    ) -> _Stop | None:
-        """The stop to go to first; None when none is worth the time."""
-        if not stops:
+    def _stop_at(self, frontier: Frontier, request: PlanRequest, site: _Site) -> Stop:
+        """Where a frontier is observed from soonest, and what that is worth."""
+        scale = self._scale
+        nodes = site.reachable.nodes_near(frontier.x, frontier.y, scale.frontier_reach)
+        cost = np.where(nodes >= 0, site.seconds[nodes], np.inf)
+        nearest = int(np.argmin(cost))
+        goal = Goal(GoalKind.FRONTIER, float(frontier.x[nearest]), float(frontier.y[nearest]))
+        # A frontier onto unbounded unknown space is worth any detour.
+        worth = scale.seconds_per_area * frontier.hidden_area(scale) - scale.stop_seconds
+        if in_discs(frontier.x, frontier.y, request.retryable).any():
+            worth = min(worth, RETRY_SECONDS)
+        return Stop(goal, int(nodes[nearest]), worth)
+
+    def _search(self, request: PlanRequest, site: _Site) -> Stop | None:
+        """The nearest cell that was not observed from near, or else from nearer still."""
+        if request.coverage is None:
             return None
-        nodes = [stop.node for stop in stops]
-        first = ways.seconds[0, nodes] + [
-            _turn_seconds(request.pose, roadmap.way(ways, 0, node)) for node in nodes
-        ]
-        if self._whole_tour:
-            onward = roadmap.ways_from(nodes).seconds
-            last = onward[:, home] if home >= 0 else np.zeros(len(stops))
-            worth = np.array([stop.worth for stop in stops])
-            cost = tour_costs(first, onward[:, nodes], last, worth)
-            at_once = float(ways.seconds[0, home]) if home >= 0 else 0.0
-            if worth.sum() + at_once < cost.min():
-                return None
-        else:
-            cost = first
-        cost = cost - LOYALTY * np.array([_same(stop.goal, request.last_goal) for stop in stops])
-        return stops[int(np.argmin(cost))]
+        scale = self._scale
+        x, y, observed_from = unsearched_cells(request.coverage, site.costmap, scale.base_reach)
+        nodes = site.reachable.nodes_near(x, y, scale.target_reach)
+        cost = np.where(nodes >= 0, site.seconds[nodes], np.inf)
+        cost[in_discs(x, y, request.blacklisted)] = np.inf
+        for distance in scale.search_distances:
+            left = np.where(observed_from > distance, cost, np.inf)
+            if np.isfinite(left).any():
+                nearest = int(np.argmin(left))
+                goal = Goal(GoalKind.SEARCH, float(x[nearest]), float(y[nearest]))
+                return Stop(goal, int(nodes[nearest]))
+        return None
 
 
 def _node_near(reachable: Region, point: tuple[float, float], reach: float) -> int:
@@ -157,47 +153,13 @@ def _node_near(reachable: Region, point: tuple[float, float], reach: float) -> i
     return int(reachable.nodes_near(np.array([point[0]]), np.array([point[1]]), reach)[0])
 
 
-def _search(
-    request: PlanRequest, costmap: Costmap, reachable: Region, seconds: NDArray[np.float64]
-) -> _Stop | None:
-    """The nearest place that was not looked at from near, or else from nearer still."""
-    if request.searched is None:
-        return None
-    x, y, looked_from = hiding_places(request.searched, costmap)
-    nodes = reachable.nodes_near(x, y, REACH_OF_ROCK)
-    cost = np.where(nodes >= 0, seconds[nodes], np.inf)
-    cost[near_visited(x, y, request.visited)] = np.inf
-    for distance in SEARCH_DISTANCES:
-        left = np.where(looked_from > distance, cost, np.inf)
-        if np.isfinite(left).any():
-            nearest = int(np.argmin(left))
-            goal = Goal(GoalKind.SEARCH, float(x[nearest]), float(y[nearest]))
-            return _Stop(goal, int(nodes[nearest]))
-    return None
-
-
-def _turn_seconds(pose: Pose, way: NDArray[np.float64]) -> float:
-    """To turn towards a way, when that takes a turn on the spot."""
-    ahead = way[min(len(way) - 1, 5)]
-    if math.hypot(ahead[0] - pose.x, ahead[1] - pose.y) < 0.5:
-        return 0.0
-    angle = abs(wrap_angle(math.atan2(ahead[1] - pose.y, ahead[0] - pose.x) - pose.yaw))
-    return angle / (TURN_IN_PLACE_RATE * MAX_STEERING) + (TURN_SECONDS if angle > SHARP else 0.0)
-
-
-def _same(goal: Goal, last: Goal | None) -> bool:
-    if last is None or goal.kind is not last.kind:
-        return False
-    return math.hypot(goal.x - last.x, goal.y - last.y) < SAME_GOAL
-
-
-def _centers(frontiers: Sequence[Frontier]) -> NDArray[np.float64]:
+def _centers(frontiers: list[Frontier]) -> NDArray[np.float64]:
     return np.array([(f.x.mean(), f.y.mean()) for f in frontiers], float).reshape(-1, 2)
 
 
-def _explored(costmap: Costmap, frontiers: list[Frontier]) -> float:
+def _explored(costmap: Costmap, frontiers: list[Frontier], unknown_depth: float) -> float:
     """Share of the ground that is known, guessing that each frontier opens on some more."""
     resolution = costmap.geometry.resolution
     known = float(np.count_nonzero(costmap.free)) * resolution**2
-    beyond = sum(f.length for f in frontiers) * resolution * UNKNOWN_DEPTH
+    beyond = sum(f.length for f in frontiers) * resolution * unknown_depth
     return known / (known + beyond) if known else 0.0

@@ -10,22 +10,21 @@ from scipy import ndimage
 
 from rover_navigation.roadmap import Roadmap
 
-ROOMY_REACH = 4.0  # [m] to a place with room on all sides; where none is as near, a narrow one does
-
 
 class Region:
     """Some nodes of a roadmap, such as those that can be driven to."""
 
-    def __init__(self, roadmap: Roadmap, members: NDArray[np.bool_]) -> None:
-        """members (nodes,)"""
+    def __init__(self, roadmap: Roadmap, members: NDArray[np.bool_], wide_reach: float) -> None:
+        """members (nodes,); wide_reach [m] to a wide place, beyond which a narrow one does."""
         self._roadmap = roadmap
         self._members = members
+        self._wide_reach = wide_reach
         self._cells = np.zeros_like(roadmap.drivable)
         self._cells[roadmap.drivable] = members
 
     @classmethod
-    def everywhere(cls, roadmap: Roadmap) -> Region:
-        return cls(roadmap, np.ones(len(roadmap), bool))
+    def everywhere(cls, roadmap: Roadmap, wide_reach: float) -> Region:
+        return cls(roadmap, np.ones(len(roadmap), bool), wide_reach)
 
     def node_at(self, point: tuple[float, float], reach: float) -> int:
         """The node nearest to a point [m], in however narrow a place; -1 where none is in reach."""
@@ -41,15 +40,15 @@ class Region:
     ) -> NDArray[np.int32]:
         """The node nearest to each point (n,) [m]; -1 where none is within `reach` [m].
 
-        A node with room around it, where there is one within a few metres.
+        A wide one, where there is one within a few metres.
         """
         if not self._members.any():
             return np.full(len(x), -1, np.int32)
-        node, away = self._nodes_of(self._nearest_roomy, x, y)
-        far = away > min(reach, ROOMY_REACH)
+        node, away = self._nodes_of(self._nearest_wide, x, y)
+        far = away > min(reach, self._wide_reach)
         if far.any():
-            tight, nearer = self._nodes_of(self._nearest, x, y)
-            node, away = np.where(far, tight, node), np.where(far, nearer, away)
+            narrow, nearer = self._nodes_of(self._nearest, x, y)
+            node, away = np.where(far, narrow, node), np.where(far, nearer, away)
         return np.where(away <= reach, node, -1).astype(np.int32)
 
     def _nodes_of(
@@ -67,8 +66,8 @@ class Region:
         return _nearest_true(self._cells)
 
     @cached_property
-    def _nearest_roomy(self) -> NDArray[np.int32]:
-        return _nearest_true(self._cells & self._roadmap.roomy)
+    def _nearest_wide(self) -> NDArray[np.int32]:
+        return _nearest_true(self._cells & self._roadmap.wide)
 
 
 def _nearest_true(mask: NDArray[np.bool_]) -> NDArray[np.int32]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from enum import Enum
 
 import numpy as np
@@ -10,14 +11,13 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
-from rover_common.types import GridMap, RockTrack
-from rover_navigation.costmap import Blocked
+from rover_common.types import GridMap
 
 
 class GoalKind(Enum):
-    FRONTIER = "the edge of the unknown"
-    ROCK = "a rock"
-    SEARCH = "ground not searched for rocks"
+    FRONTIER = "a frontier"
+    TARGET = "a target"
+    SEARCH = "ground not searched for targets"
 
 
 @dataclass(frozen=True)
@@ -27,59 +27,90 @@ class Goal:
     kind: GoalKind
     x: float  # [m] map frame
     y: float  # [m]
-    rock_id: int | None = None
+    target_id: int | None = None
 
 
 @dataclass(frozen=True)
-class Way:
-    """Points to drive along, from the rover on."""
+class Target:
+    """A place that the mission wants to get to, whatever is there."""
+
+    id: int
+    x: float  # [m] map frame
+    y: float  # [m]
+    reach: float  # [m] from the end of the path
+    worth: float = math.inf  # [s] of detour at most
+
+
+@dataclass(frozen=True)
+class Path:
+    """Points to drive along, from the robot on."""
 
     points: NDArray[np.float64]  # (n, 2) [m] map frame
-    speeds: NDArray[np.float64]  # (n,) [m/s] limit by the room around each point
+    speeds: NDArray[np.float64]  # (n,) [m/s] limit by the clearance around each point
 
     def __len__(self) -> int:
         return len(self.points)
 
 
-NO_WAY = Way(np.empty((0, 2)), np.empty(0))
+NO_PATH = Path(np.empty((0, 2)), np.empty(0))
+NO_POINTS: NDArray[np.float64] = np.empty((0, 2))
 
 
 @dataclass(frozen=True)
-class Searched:
-    """From how near each piece of ground was looked at: whether a rock would have shown."""
+class BlockedPlace:
+    """A place that proved impassable."""
+
+    x: float  # [m] map frame
+    y: float  # [m]
+    radius: float  # [m]
+    until: float = math.inf  # [s] frame time
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """From how near each cell was observed: whether a target would have shown."""
 
     geometry: GridGeometry
-    distance: NDArray[np.float32]  # (rows, cols) [m] the nearest look, inf where there was none
+    distance: NDArray[np.float32]  # (rows, cols) [m] the nearest observation, inf where none
 
 
 @dataclass(frozen=True)
 class PlanRequest:
-    """What the mission knows at the frame at which it asks."""
+    """What the mission knows at the frame at which it asks, and the map of that frame."""
 
-    stamp: int  # [ns] of that frame, and of the map
     grid: GridMap
+    stamp: int  # [ns] of that frame
     pose: Pose
     home: tuple[float, float]  # [m]
-    trail: NDArray[np.float64]  # (n, 2) [m] where the rover has been
-    rocks: tuple[RockTrack, ...]  # worth going for now
-    blocked: tuple[Blocked, ...]
-    visited: NDArray[np.float64]  # (n, 3) [m] x, y, radius of what was looked at in vain
-    doubtful: NDArray[np.float64]  # (n, 3) [m] the same, so long ago that it may be tried again
-    searched: Searched | None
-    search: bool  # whether samples are left: rocks that nobody has seen, when none is in reach
-    last_goal: Goal | None
-    home_by_crumbs: bool = False  # the way home is to be made of the trail, not of the map
+    trail: NDArray[np.float64] = field(default_factory=lambda: NO_POINTS)  # (n, 2) [m] driven
+    targets: tuple[Target, ...] = ()  # worth going to now
+    blocked: tuple[BlockedPlace, ...] = ()
+    # (n, 3) [m] x, y, radius: goals not to go to now, and those observed without result before
+    blacklisted: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
+    retryable: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
+    coverage: Coverage | None = None
+    search: bool = False  # whether there are targets that nobody has seen yet
+    last_goal: Goal | None = None
+    home_by_breadcrumbs: bool = False  # the home path is to be made of the trail, not of the map
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Where to go, and the way there."""
+    """Where to go, and the path there."""
 
     stamp: int  # [ns] of the request
     goal: Goal | None  # None when nothing is left to do out there
-    way: Way  # to the goal
-    home_way: Way  # back to the start, empty where the map shows none
+    path: Path  # to the goal
+    home_path: Path  # back to the start, empty where the map shows none
     home_seconds: float  # [s] estimate for that
     frontiers: NDArray[np.float64]  # (n, 2) [m] centres, for people
     explored: float  # 0..1 estimate
-    placed: bool = True  # whether the rover stands on known ground: else the plan says nothing
+    placed: bool = True  # whether the robot stands on known ground: else the plan says nothing
+
+
+@dataclass(frozen=True)
+class PlanFailed:
+    """A plan that was asked for and did not come."""
+
+    stamp: int  # [ns] of the request
+    reason: str

@@ -25,6 +25,3 @@ def wall_follow_b(nav: PolarArray) -> float:
 def mean_bearing(nav: PolarArray) -> float:
     """[rad]"""
     return float(nav.bearings.astype(np.float64).mean())
-
-
-WALL_FOLLOWERS = {"wall_follow_a": wall_follow_a, "wall_follow_b": wall_follow_b}

@@ -1,4 +1,4 @@
-"""Parameters of the decision node; distances, speeds and times have their sources in comments."""
+"""Parameters of the sample-return mission."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ class DecisionConfig:
     way_home: str = parameter(
         "breadcrumbs",
         "how to come home: breadcrumbs, shortest_path or bearing; the others are tried when it"
-        " does not get on",
+        " makes no progress",
         choices=("breadcrumbs", "shortest_path", "bearing"),
     )
     top_speed: float = parameter(3.6, "[m/s] speed on open ground", minimum=0.2, maximum=5.0)
     stop_clearance: float = parameter(
         0.9,
-        "[m] free way ahead, beyond what braking takes, below which the rover stops",
+        "[m] free ground ahead, beyond what braking takes, below which the rover stops",
         minimum=0.5,
         maximum=10.0,
     )
     go_clearance: float = parameter(
-        2.5, "[m] free way ahead above which a wall follower goes on", minimum=0.5, maximum=20.0
+        2.5, "[m] free ground ahead above which a wall follower goes on", minimum=0.5, maximum=20.0
     )
     corridor: float = parameter(
-        0.5, "[m] half width of the way that must be free", minimum=0.4, maximum=2.0
+        0.5, "[m] half width of the corridor that must be free", minimum=0.4, maximum=2.0
     )
     rock_range: float = parameter(
         3.5,
@@ -47,7 +47,7 @@ class DecisionConfig:
     )
     search_limit: float = parameter(
         150.0,
-        "[s] of looking for samples on ground that is known, after which they are left",
+        "[s] of searching known ground for samples, after which they are left",
         minimum=0.0,
         maximum=36000.0,
     )
@@ -68,4 +68,11 @@ class DecisionConfig:
         "[s] of frame time from the map that a plan is made of to the plan's effect",
         minimum=0.0,
         maximum=5.0,
+    )
+    plan_max_age: float = parameter(
+        3.0,
+        "[s] of frame time after which a plan or its map is too old to drive with; more than"
+        " perception's map_period",
+        minimum=0.5,
+        maximum=120.0,
     )

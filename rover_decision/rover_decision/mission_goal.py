@@ -1,16 +1,16 @@
-"""One request to run the mission: what it asks of the mission, and how it ends."""
+"""One goal to run the mission: what it asks of the mission, and how it ends."""
 
 from __future__ import annotations
 
 import math
 from enum import IntEnum
 
-from rover_decision.mission import Mission
-from rover_decision.states import State
+from rover_decision.core import DecisionCore
+from rover_decision.types import Request
 
 
 class Outcome(IntEnum):
-    """How a run ended; the values are those of rover_interfaces/RunMission's result."""
+    """How a goal ended; the values are those of rover_interfaces/RunMission's result."""
 
     HOME = 1
     CANCELED = 2
@@ -20,12 +20,12 @@ class Outcome(IntEnum):
 REASONS = {
     Outcome.HOME: "the mission is over, the rover is home",
     Outcome.CANCELED: "canceled, the rover is home",
-    Outcome.RESTARTED: "a new mission has begun",
+    Outcome.RESTARTED: "a new run has begun",
 }
 
 
-def refusal(time_limit: float, current: Run | None) -> str:
-    """Why a run cannot be taken on beside the current one; empty when it can. time_limit: [s]."""
+def refusal(time_limit: float, current: MissionGoal | None) -> str:
+    """Why a goal cannot be accepted beside the current one; empty when it can. time_limit: [s]."""
     if not (math.isfinite(time_limit) and time_limit >= 0):
         return f"time_limit must be a number of seconds, 0 or more, not {time_limit}"
     if current is None:
@@ -35,20 +35,19 @@ def refusal(time_limit: float, current: Run | None) -> str:
     return "the mission already runs for another goal: cancel that one first"
 
 
-class Run:
-    """Follows a mission from the request to its end."""
+class MissionGoal:
+    """Follows a mission from the goal's acceptance to its end."""
 
-    def __init__(self, mission: Mission, time_limit: float = 0.0) -> None:
+    def __init__(self, core: DecisionCore, time_limit: float = 0.0) -> None:
         """Follow the mission that runs; start one where none does.
 
         time_limit: [s] of mission time, from its first frame on, within which to be home; 0 for the
         parameter's.
         """
-        if mission.state in (State.IDLE, State.DONE):
-            mission.reset()
-        if time_limit > 0:
-            mission.limit_time(time_limit)
-        self._mission, self._number = mission, mission.number
+        core.request(Request.START)
+        if time_limit > 0 or core.mission.idle:
+            core.mission.limit_time(time_limit)
+        self._core, self._number = core, core.mission_number
         self._canceled = False
 
     @property
@@ -56,16 +55,16 @@ class Run:
         return self._canceled
 
     def cancel(self) -> None:
-        """Come home; the run ends there."""
+        """Come home; the goal ends there."""
         self._canceled = True
-        self._mission.return_home()
+        self._core.request(Request.RETURN_HOME)
 
     def outcome(self) -> Outcome | None:
-        """How the run has ended; None as long as it goes on."""
-        if self._mission.number != self._number:
+        """How the goal has ended; None as long as it goes on."""
+        if self._core.mission_number != self._number:
             return Outcome.RESTARTED
-        if self._mission.state is State.DONE:
+        if self._core.mission.over:
             return Outcome.CANCELED if self._canceled else Outcome.HOME
-        if self._mission.state is State.IDLE and self._canceled:
+        if self._core.mission.idle and self._canceled:
             return Outcome.CANCELED  # it never left, and no frame may ever come
         return None

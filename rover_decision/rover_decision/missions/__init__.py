@@ -1,0 +1,1 @@
+"""The missions: what each robot is to do."""

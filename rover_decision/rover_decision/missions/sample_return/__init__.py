@@ -1,0 +1,25 @@
+"""Sample return: explore an unknown canyon, collect the rock samples, come home."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from rover_decision.core import DecisionCore
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.explorers import SELECTIONS
+from rover_decision.missions.sample_return.mission import SampleReturnMission
+from rover_decision.missions.sample_return.rover_scale import ROVER_SCALE
+from rover_navigation.planner import Planner
+from rover_navigation.selection import WholeTour
+
+
+def make_planner(config: DecisionConfig) -> Planner:
+    """The planner that the parameters name."""
+    selection = SELECTIONS.get(config.explorer, WholeTour)
+    return Planner(ROVER_SCALE, selection(ROVER_SCALE))
+
+
+def make_core(config: DecisionConfig, lockstep: bool) -> DecisionCore:
+    """The decision core of this mission; lockstep: frames wait for their plans."""
+    mission = partial(SampleReturnMission, config)
+    return DecisionCore(mission, make_planner(config).plan, config.plan_delay, lockstep)

@@ -1,0 +1,128 @@
+"""The mission's states and the events that lead from one to another, as a statechart."""
+
+from __future__ import annotations
+
+from enum import Enum, IntEnum
+
+from statemachine import HistoryState, StateChart
+from statemachine import State as ChartState
+
+
+class State(IntEnum):
+    """The values are those of rover_interfaces/MissionState."""
+
+    IDLE = 0
+    FORWARD = 1
+    STOP = 2
+    ROCK_APPROACH = 3
+    PICKUP = 4
+    STUCK = 5
+    CIRCLE = 6
+    TILT = 7
+    RETURN_HOME = 8
+    DONE = 9
+    PAUSED = 10
+    HOLD = 11
+
+
+class Event(Enum):
+    """What can happen to a mission."""
+
+    start = "the first frame has come"
+    blocked = "no way ahead"
+    cleared = "a way is open"
+    rock_seen = "a rock is near enough to drive to it by sight"
+    rock_lost = "the rock is gone or given up"
+    rock_reached = "a sample is in reach of the arm"
+    picked_up = "the sample is on board"
+    pickup_failed = "the arm did not start"
+    circling = "has steered to one side for too long"
+    stopped_moving = "no progress although driving"
+    tilted = "tilted too far"
+    input_gap = "frames were missing, or the pose jumped"
+    planner_failed = "the planner failed"
+    plan_stale = "the plan is too old"
+    map_stale = "the map is too old"
+    inputs_restored = "all inputs are fresh again"
+    recovered = "the manoeuvre is over"
+    gave_up = "no manoeuvre and no waiting helps"
+    finished = "nothing is left to do out here"
+    arrived = "home is reached"
+    pause = "asked to pause"
+    resume = "asked to go on"
+
+
+class MissionChart(StateChart):
+    """Which event leads where; an event that a state does not know changes nothing.
+
+    The mission explores, then heads home. What interrupts it (a pickup, a recovery, a pause) returns
+    to the phase that it interrupted.
+    """
+
+    class driving(ChartState.Compound):  # noqa: N801
+        class exploring(ChartState.Compound):  # noqa: N801
+            forward = ChartState(initial=True, value=State.FORWARD)
+            stop = ChartState(value=State.STOP)
+            rock_approach = ChartState(value=State.ROCK_APPROACH)
+            circle = ChartState(value=State.CIRCLE)
+
+            blocked = stop.from_(forward, circle)
+            cleared = stop.to(forward)
+            rock_seen = rock_approach.from_(forward, stop, circle)
+            rock_lost = rock_approach.to(forward)
+            circling = forward.to(circle)
+            recovered = circle.to(forward)
+
+        class heading_home(ChartState.Compound):  # noqa: N801
+            return_home = ChartState(initial=True, value=State.RETURN_HOME)
+
+        phase = HistoryState()
+        phase.to(exploring)
+        finished = exploring.to(heading_home)
+
+    idle = ChartState(initial=True, value=State.IDLE)
+    pickup = ChartState(value=State.PICKUP)
+    stuck = ChartState(value=State.STUCK)
+    tilt = ChartState(value=State.TILT)
+    hold = ChartState(value=State.HOLD)
+    paused = ChartState(value=State.PAUSED)
+    done = ChartState(value=State.DONE)
+
+    start = idle.to(driving.exploring)
+    rock_reached = driving.to(pickup)
+    stopped_moving = driving.to(stuck)
+    tilted = driving.to(tilt)
+    input_gap = driving.to(hold)
+    planner_failed = driving.exploring.to(hold)
+    plan_stale = driving.exploring.to(hold)
+    map_stale = driving.exploring.to(hold)
+    picked_up = pickup.to(driving.phase)
+    pickup_failed = pickup.to(driving.phase)
+    inputs_restored = hold.to(driving.phase)
+    recovered = stuck.to(driving.phase) | tilt.to(driving.phase)
+    gave_up = driving.heading_home.from_(stuck, hold)
+    arrived = driving.heading_home.to(done)
+    pause = paused.from_(idle, driving, stuck, tilt, hold, done)
+    resume = paused.to(driving.phase)
+
+
+class Machine:
+    """The seam to the library: a current state, and events."""
+
+    def __init__(self) -> None:
+        self._chart = MissionChart()
+        self.state = State.IDLE
+
+    @property
+    def heading_home(self) -> bool:
+        """Whether the rover heads home, or will when what interrupted that is over."""
+        if self._chart.driving.is_active:
+            return bool(self._chart.heading_home.is_active)
+        return self._chart.heading_home in self._chart.history_values.get("phase", ())
+
+    def handle(self, event: Event) -> bool:
+        """Whether the event led to another state."""
+        before = self.state
+        self._chart.send(event.name)
+        (self.state,) = (s.value for s in self._chart.configuration if isinstance(s.value, State))
+        return self.state is not before

@@ -1,0 +1,200 @@
+"""How to explore: along plans, or along walls. One object, chosen once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Protocol
+
+from rover_common.types import Command, PolarArray
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.tick import TickContext
+from rover_decision.missions.sample_return.wall_following import (
+    mean_bearing,
+    wall_follow_a,
+    wall_follow_b,
+)
+from rover_decision.types import Action
+from rover_navigation.actuation import Actuation, approach_speed
+from rover_navigation.local_clearance import LocalClearance
+from rover_navigation.path_tracking import STOP_MARGIN, PathTracker, at_end, path_bearing
+from rover_navigation.selection import NearestStop, WholeTour
+from rover_navigation.types import GoalKind
+from rover_common.geometry import bearing_to
+
+PATH_AHEAD = math.radians(12.0)  # a path this near to straight ahead can be driven into
+SHARP = math.radians(40.0)  # a path further aside is turned to in place, which takes no way ahead
+CLEARANCE_TO_GO = 1.2  # of the clearance below which it stops, so that it does not stop at once again
+LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
+SPEED_MIN = 0.3  # [m/s] of driving by sight
+ALIGN_SECONDS, LOOK_SECONDS = 0.5, 1.0  # [s] in STOP, at least
+
+
+class Explorer(Protocol):
+    """A strategy to see everything."""
+
+    needs_plan: bool  # whether it stands still without one
+    samples_suffice: bool  # whether it is done when all samples are collected
+
+    def wanted_bearing(self, tick: TickContext) -> float:
+        """Where it leads [rad]."""
+
+    def turns_in_place(self, tick: TickContext) -> bool:
+        """Whether the rover is where its goal is observed from, and turns there in place."""
+
+    def drive(self, tick: TickContext) -> Action:
+        """Explore on."""
+
+    def leave_stop(self, tick: TickContext, side: int) -> Action:
+        """Turn to where it goes on, or to a side (+1 left) until there is a way; it stands."""
+
+    def is_clear(self, tick: TickContext) -> bool:
+        """Whether it can drive on from a stop."""
+
+
+class SightDriver:
+    """Drives towards bearings, at the speed that the free ground allows."""
+
+    def __init__(self, actuation: Actuation, config: DecisionConfig) -> None:
+        self.actuation = actuation
+        self._top_speed = config.top_speed
+        self._go_clearance = config.go_clearance
+
+    def towards(self, tick: TickContext, bearing: float) -> Command:
+        """In a curve, the way is the corridor to its side."""
+        ahead = min(tick.local.clearance(bearing), tick.local.clearance(bearing / 2))
+        speed = min(self._top_speed, approach_speed(ahead - STOP_MARGIN))
+        return self.actuation.drive(tick.speed, max(SPEED_MIN, speed), bearing)
+
+    def near(self, tick: TickContext, wanted: Callable[[PolarArray], float]) -> Command | None:
+        """Towards the free bearing nearest to the wanted one; None where no ground is seen."""
+        nav = tick.frame.nav
+        if len(nav.bearings) == 0:
+            return None
+        bearing = tick.local.best_bearing(wanted(nav), self._go_clearance)
+        return self.towards(tick, bearing)
+
+    def leave_circle(self, tick: TickContext) -> Action:
+        """Where the most ground is, whatever the explorer wants."""
+        command = self.near(tick, mean_bearing)
+        if command is None:
+            return self.actuation.stop(), "sees no ground"
+        return command, "leaves the circle"
+
+    def turn_to_open(self, tick: TickContext, side: int) -> Action:
+        """Turn to the nearest way by sight, to the side where none is seen."""
+        way = tick.local.open_bearing(self._go_clearance)
+        bearing = side * LOOK_AROUND if way is None else way
+        return self.actuation.turn_in_place(tick.speed, bearing), "turns to find a way"
+
+    def is_open(self, tick: TickContext) -> bool:
+        """Whether there is a way ahead by sight."""
+        way = tick.local.open_bearing(self._go_clearance)
+        return way is not None and abs(way) < PATH_AHEAD
+
+
+class PlanExplorer:
+    """Drives along the plans."""
+
+    needs_plan = True
+    samples_suffice = False
+
+    def __init__(self, tracker: PathTracker, sight: SightDriver, config: DecisionConfig) -> None:
+        self._tracker = tracker
+        self._sight = sight
+        self._actuation = sight.actuation
+        self._clearance_to_go = CLEARANCE_TO_GO * config.stop_clearance
+
+    def wanted_bearing(self, tick: TickContext) -> float:
+        plan = tick.plan
+        if plan is None or len(plan.path) == 0:
+            return 0.0
+        if plan.goal is not None and self.turns_in_place(tick):
+            return bearing_to(tick.pose, plan.goal.x, plan.goal.y)
+        return path_bearing(tick.pose, plan.path)
+
+    def turns_in_place(self, tick: TickContext) -> bool:
+        plan = tick.plan
+        if plan is None or plan.goal is None or plan.goal.kind is GoalKind.TARGET:
+            return False
+        return len(plan.path) > 0 and at_end(tick.pose, plan.path)
+
+    def drive(self, tick: TickContext) -> Action:
+        plan = tick.plan
+        if plan is None:
+            return self._actuation.stop(), "waits for the first plan"
+        if plan.goal is None or len(plan.path) == 0:
+            turn = self._actuation.turn_in_place(tick.speed, LOOK_AROUND)
+            return turn, "looks around for a goal"
+        what = plan.goal.kind.value
+        if self.turns_in_place(tick):
+            turn = self._actuation.turn_in_place(tick.speed, self.wanted_bearing(tick))
+            return turn, f"observes {what}"
+        command = self._tracker.command(tick.pose, tick.speed, plan.path, tick.local)
+        return command, f"drives to {what}"
+
+    def leave_stop(self, tick: TickContext, side: int) -> Action:
+        if tick.plan is None:
+            return self._sight.turn_to_open(tick, side)
+        if len(tick.plan.path) == 0:
+            turn = self._actuation.turn_in_place(tick.speed, LOOK_AROUND)
+            return turn, "turns to find a path"
+        bearing = self.wanted_bearing(tick)
+        if abs(bearing) < PATH_AHEAD and not self._has_clearance(tick.local, bearing):
+            return self._actuation.reverse(), "too near for the new path: backs up"
+        return self._actuation.turn_in_place(tick.speed, bearing), "turns to the new path"
+
+    def is_clear(self, tick: TickContext) -> bool:
+        plan = tick.plan
+        if plan is None:
+            return self._sight.is_open(tick)
+        if plan.goal is None:
+            return tick.since > LOOK_SECONDS  # it looks around while it drives
+        wanted = self.wanted_bearing(tick)
+        aligned = tick.since > ALIGN_SECONDS and abs(wanted) < PATH_AHEAD
+        return aligned and self._has_clearance(tick.local, wanted)
+
+    def _has_clearance(self, local: LocalClearance, bearing: float) -> bool:
+        """Whether there is enough free ground to set out in this direction [rad]."""
+        return local.clearance(bearing) > self._clearance_to_go
+
+
+class WallFollower:
+    """Drives by sight, along a bearing that keeps to a wall."""
+
+    needs_plan = False
+    samples_suffice = True
+
+    def __init__(self, rule: Callable[[PolarArray], float], sight: SightDriver) -> None:
+        """rule: the bearing [rad] that navigable ground leads to."""
+        self._rule = rule
+        self._sight = sight
+
+    def wanted_bearing(self, tick: TickContext) -> float:
+        return 0.0
+
+    def turns_in_place(self, tick: TickContext) -> bool:
+        return False
+
+    def drive(self, tick: TickContext) -> Action:
+        command = self._sight.near(tick, self._rule)
+        if command is None:
+            return self._sight.actuation.stop(), "sees no ground"
+        return command, "follows the wall"
+
+    def leave_stop(self, tick: TickContext, side: int) -> Action:
+        return self._sight.turn_to_open(tick, side)
+
+    def is_clear(self, tick: TickContext) -> bool:
+        return self._sight.is_open(tick)
+
+
+WALL_RULES = {"wall_follow_a": wall_follow_a, "wall_follow_b": wall_follow_b}
+SELECTIONS = {"tour": WholeTour, "frontier": NearestStop}
+
+
+def make_explorer(config: DecisionConfig, tracker: PathTracker, sight: SightDriver) -> Explorer:
+    """The explorer that the parameters name."""
+    if config.explorer in WALL_RULES:
+        return WallFollower(WALL_RULES[config.explorer], sight)
+    return PlanExplorer(tracker, sight, config)

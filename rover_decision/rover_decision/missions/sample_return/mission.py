@@ -1,0 +1,172 @@
+"""The mission: what happened, what state follows from it, and what to do; one tick per frame.
+
+    monitors -> the state's event -> the chart -> the state's action
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import partial
+
+from rover_decision.missions.sample_return.chart import Event, Machine, State
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.parts import Parts
+from rover_decision.missions.sample_return.states import make_states
+from rover_decision.missions.sample_return.tick import StateBehavior, TickContext
+from rover_decision.types import Decision, Frame, Overlay, Progress, Request
+from rover_navigation.monitors import CIRCLE_SPEED
+from rover_navigation.plan_scheduler import MakeRequest, PlanStatus
+from rover_navigation.types import NO_POINTS, PlanRequest
+
+# Time goes into a rock in these, also where a recovery interrupts the approach again and again.
+APPROACHING = {State.ROCK_APPROACH, State.TILT, State.STUCK}
+# Between these it may go to and fro for ever: only to leave the spot is progress then.
+TO_AND_FRO = {State.FORWARD, State.STOP, State.CIRCLE}
+EXPLORING = TO_AND_FRO | {State.ROCK_APPROACH}
+HOMEWARD = {State.RETURN_HOME, State.DONE}
+
+
+class SampleReturnMission:
+    """Explore, collect the samples, come home: one run of it."""
+
+    def __init__(self, config: DecisionConfig) -> None:
+        self._config = config
+        self._machine = Machine()
+        self._entered_state = self._machine.state
+        self._entered = 0.0  # [s] when
+        self._time_limit = config.time_limit
+        self._return_requested = False  # to be done when what goes on has come to its end
+        self._parts: Parts | None = None  # from the first frame on, which tells where home is
+        self._states: dict[State, StateBehavior] = {}
+        self._tick: TickContext | None = None  # the newest
+
+    @property
+    def state(self) -> State:
+        return self._machine.state
+
+    @property
+    def over(self) -> bool:
+        return self.state is State.DONE
+
+    @property
+    def idle(self) -> bool:
+        return self.state is State.IDLE
+
+    def request(self, request: Request) -> bool:
+        """Whether the mission can do what it is asked for."""
+        if request is Request.PAUSE:
+            return self._machine.handle(Event.pause)
+        if request is Request.RESUME:
+            return self._machine.handle(Event.resume)
+        if request is Request.RETURN_HOME and not self.over:
+            self._return_requested = True
+            self._machine.handle(Event.finished)
+            return True
+        return False
+
+    def limit_time(self, seconds: float) -> None:
+        """Be home within so many seconds from the first frame on; 0 for the parameter's."""
+        self._time_limit = seconds or self._config.time_limit
+
+    def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
+        """Decide about one frame."""
+        parts = self._parts or self._begin(frame)
+        tick = self._observe(parts, frame, plans)
+        event = self._states[self.state].event(tick)
+        if event is not None and self._machine.handle(event):
+            tick = self._enter(parts, tick)
+        command, reason = self._states[self.state].act(tick)
+        driving = self.state is State.FORWARD and abs(tick.speed) > CIRCLE_SPEED
+        parts.circle.commanded(tick.time, command.steering_angle, driving)
+        parts.motion.commanded(tick.time, tick.pose, command)
+        self._tick = tick
+        return Decision(command, self.state, reason, self._progress(parts, tick))
+
+    def plan_request(self, frame: Frame) -> MakeRequest:
+        """What a plan is to be made of, as things stand at this frame; the map comes later."""
+        assert self._parts is not None, "asked for before the first frame"
+        parts, time = self._parts, frame.time
+        by_breadcrumbs = parts.home_paths.method.by_breadcrumbs
+        return partial(
+            PlanRequest,
+            stamp=frame.stamp,
+            pose=frame.pose,
+            home=parts.home,
+            trail=parts.breadcrumbs.points,
+            targets=parts.samples.targets(frame, parts.scale.target_reach),
+            blocked=parts.blocked.places,
+            blacklisted=parts.goals.blacklisted(time),
+            retryable=parts.goals.retryable(time),
+            coverage=parts.coverage.snapshot(),
+            search=parts.completion.searches,
+            last_goal=parts.goals.last,
+            home_by_breadcrumbs=self._heads_home and by_breadcrumbs,
+        )
+
+    def overlay(self) -> Overlay:
+        """What it knows about places."""
+        parts, tick = self._parts, self._tick
+        if parts is None or tick is None:
+            return Overlay(NO_POINTS)
+        path = None if tick.plan is None else tick.plan.path
+        if self._machine.heading_home:
+            path = parts.home_paths.method.path(tick.plan, tick.pose)
+        return Overlay(parts.breadcrumbs.points, parts.blocked.places, tick.plan, path)
+
+    @property
+    def _heads_home(self) -> bool:
+        return self._machine.heading_home or self._return_requested
+
+    def _begin(self, frame: Frame) -> Parts:
+        self._parts = Parts.of(self._config, frame)
+        self._states = make_states(self._config, self._parts)
+        return self._parts
+
+    def _observe(self, parts: Parts, frame: Frame, plans: PlanStatus) -> TickContext:
+        """Bring all that is remembered up to date."""
+        homeward = self.state in HOMEWARD
+        health, plan = parts.update(frame, plans, homeward)
+        if self.state in APPROACHING:
+            parts.samples.spend(frame, health.gap)
+        elapsed = frame.time - parts.begun
+        tick = TickContext(
+            frame=frame,
+            plan=plan,
+            local=parts.local_clearance(frame),
+            health=health,
+            rock=parts.samples.nearest(frame),
+            time_left=self._time_limit - elapsed,
+            since=frame.time - self._entered,
+            heading_home=self._machine.heading_home,
+            return_requested=self._return_requested,
+        )
+        exploring = self.state in EXPLORING and not self._return_requested
+        parts.completion.update(tick, exploring)
+        if self.state is not self._entered_state:  # a request came in between
+            return self._enter(parts, tick)
+        self._states[self.state].update(tick)
+        return tick
+
+    def _enter(self, parts: Parts, tick: TickContext) -> TickContext:
+        """A new state begins at this frame."""
+        before, self._entered_state = self._entered_state, self.state
+        self._entered = tick.time
+        parts.motion.restart(tick.time, may_stay=bool({before, self.state} - TO_AND_FRO))
+        tick = replace(tick, since=0.0, heading_home=self._machine.heading_home)
+        self._states[self.state].enter(tick, before)
+        return tick
+
+    def _progress(self, parts: Parts, tick: TickContext) -> Progress:
+        samples = parts.samples
+        return Progress(
+            elapsed=tick.time - parts.begun,
+            explored=parts.explored,
+            samples_total=samples.total,
+            samples_collected=samples.collected,
+            rocks_known=samples.known(tick.frame.rocks),
+            rocks_given_up=samples.given_up,
+            home_distance=math.dist(parts.home, (tick.pose.x, tick.pose.y)),
+            distance=parts.inputs.distance,
+            recoveries=sum(state.recoveries for state in self._states.values()),
+        )

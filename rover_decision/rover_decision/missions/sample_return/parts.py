@@ -1,0 +1,108 @@
+"""What the mission remembers from frame to frame, and what its states share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rover_common.vehicle import ROVER
+from rover_decision.missions.sample_return.completion import Completion
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.home_paths import HomePaths
+from rover_decision.missions.sample_return.rover_scale import ROVER_SCALE
+from rover_decision.missions.sample_return.samples import Samples
+from rover_decision.trouble import Health
+from rover_decision.types import Frame
+from rover_navigation.actuation import Actuation
+from rover_navigation.blocked_places import BlockedPlaces
+from rover_navigation.breadcrumbs import Breadcrumbs
+from rover_navigation.coverage import CoverageGrid
+from rover_navigation.goal_history import GoalHistory
+from rover_navigation.local_clearance import LocalClearance
+from rover_navigation.monitors import CircleMonitor, InputMonitor, MotionMonitor
+from rover_navigation.plan_scheduler import PlanStatus
+from rover_navigation.recovery import SafePoses
+from rover_navigation.scale import Scale
+from rover_navigation.types import Plan
+
+SAFE_TILT = 0.5  # of the limit: a pose to back to
+
+
+@dataclass
+class Parts:
+    """Made at the run's first frame; each part is one idea and knows nothing of the others."""
+
+    config: DecisionConfig
+    begun: float  # [s] of the first frame
+    home: tuple[float, float]  # [m] where that was
+    samples: Samples
+    motion: MotionMonitor
+    completion: Completion
+    home_paths: HomePaths
+    safe_poses: SafePoses
+    goals: GoalHistory
+    blocked: BlockedPlaces
+    breadcrumbs: Breadcrumbs
+    coverage: CoverageGrid
+    actuation: Actuation = field(default_factory=lambda: Actuation(ROVER))
+    inputs: InputMonitor = field(default_factory=InputMonitor)
+    circle: CircleMonitor = field(default_factory=CircleMonitor)
+    scale: Scale = ROVER_SCALE
+    explored: float = 0.0  # 0..1, as the newest plan estimates it
+
+    @classmethod
+    def of(cls, config: DecisionConfig, frame: Frame) -> Parts:
+        """As the parameters say, from this frame on."""
+        samples = Samples(ROVER.arm_forward, config.rock_deadline, config.retry_after)
+        goals, blocked = GoalHistory(ROVER_SCALE), BlockedPlaces()
+        return cls(
+            config=config,
+            begun=frame.time,
+            home=(frame.pose.x, frame.pose.y),
+            samples=samples,
+            motion=MotionMonitor(config.stuck_seconds),
+            completion=Completion(samples, goals, blocked, config.search_limit),
+            home_paths=HomePaths(config.way_home),
+            safe_poses=SafePoses(SAFE_TILT * config.tilt_limit),
+            goals=goals,
+            blocked=blocked,
+            breadcrumbs=Breadcrumbs(ROVER_SCALE.breadcrumb_spacing),
+            coverage=CoverageGrid(ROVER_SCALE),
+        )
+
+    def update(self, frame: Frame, plans: PlanStatus, homeward: bool) -> tuple[Health, Plan | None]:
+        """Once per frame: how the inputs are, and the plan in force, which is never a stale one.
+
+        homeward: the trail and the goals no longer matter.
+        """
+        time, pose = frame.time, frame.pose
+        self.inputs.update(time, pose)
+        self.motion.update(time, pose)
+        self.safe_poses.update(pose)
+        health = self._health(frame, plans)
+        plan = plans.plan if health.plan_age <= self.config.plan_max_age else None
+        if not homeward:
+            self.breadcrumbs.drop(pose)
+            self.goals.update(time, pose, plan)
+        self.coverage.update(time, pose, frame.scan)
+        self.samples.update(frame)
+        self.blocked.update(time)
+        if plan is not None:
+            self.explored = plan.explored
+        return health, plan
+
+    def local_clearance(self, frame: Frame) -> LocalClearance:
+        """Of the frame's scan."""
+        return LocalClearance.of(frame.scan, self.config.corridor)
+
+    def _health(self, frame: Frame, plans: PlanStatus) -> Health:
+        begun = round(self.begun * 1e9)
+        planned = begun if plans.plan is None else plans.plan.stamp
+        return Health(
+            pose=frame.pose,
+            gap=self.inputs.gap,
+            jump=self.inputs.jump,
+            stopped_moving=self.motion.stopped_moving(frame.time),
+            plan_age=(frame.stamp - planned) * 1e-9,
+            map_age=(frame.stamp - max(begun, frame.map_stamp)) * 1e-9,
+            plan_failure=plans.failure,
+        )

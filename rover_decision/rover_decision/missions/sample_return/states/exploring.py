@@ -1,0 +1,48 @@
+"""What the exploring states have in common: rocks come first, and at some time it is done."""
+
+from __future__ import annotations
+
+from rover_decision.missions.sample_return.chart import Event
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.explorers import SHARP, Explorer
+from rover_decision.missions.sample_return.parts import Parts
+from rover_decision.missions.sample_return.states.moving import Moving
+from rover_decision.missions.sample_return.tick import TickContext
+from rover_decision.trouble import MOTION, PLANNING, Limits
+
+
+class Exploring(Moving):
+    """A state of exploration: FORWARD, STOP or CIRCLE."""
+
+    def __init__(
+        self, limits: Limits, explorer: Explorer, parts: Parts, config: DecisionConfig
+    ) -> None:
+        super().__init__(limits, MOTION | PLANNING if explorer.needs_plan else MOTION)
+        self._explorer = explorer
+        self._parts = parts
+        self._config = config
+
+    def _sample_event(self, tick: TickContext) -> Event | None:
+        reached = super()._sample_event(tick)
+        if reached is not None:
+            return reached
+        near = tick.rock is not None and tick.rock.distance < self._config.rock_range
+        return Event.rock_seen if near and not tick.return_requested else None
+
+    def _own_event(self, tick: TickContext) -> Event | None:
+        collected = self._explorer.samples_suffice and self._parts.samples.all_collected
+        if collected or self._parts.completion.reached(tick):
+            return Event.finished
+        return self._way_event(tick)
+
+    def _way_event(self, tick: TickContext) -> Event | None:
+        """What the ground ahead says."""
+        return Event.blocked if self._is_blocked(tick) else None
+
+    def _is_blocked(self, tick: TickContext) -> bool:
+        """Whether there is too little free ground ahead; none is needed to turn in place."""
+        wanted = self._explorer.wanted_bearing(tick)
+        if abs(wanted) > SHARP or self._explorer.turns_in_place(tick):
+            return False
+        braking = self._parts.actuation.braking_distance(tick.speed)
+        return tick.local.clearance(wanted / 2) < self._config.stop_clearance + braking

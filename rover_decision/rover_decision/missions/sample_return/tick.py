@@ -1,0 +1,67 @@
+"""One frame as the states see it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from rover_common.geometry import Pose
+from rover_decision.missions.sample_return.chart import Event, State
+from rover_decision.missions.sample_return.samples import SeenRock
+from rover_decision.trouble import Health
+from rover_decision.types import Action, Frame
+from rover_navigation.local_clearance import LocalClearance
+from rover_navigation.types import Plan
+
+
+@dataclass(frozen=True)
+class TickContext:
+    """A frame, and how the mission stands at it."""
+
+    frame: Frame
+    plan: Plan | None  # in force
+    local: LocalClearance
+    health: Health
+    rock: SeenRock | None  # the nearest one worth going for
+    time_left: float  # [s] within which to be home
+    since: float  # [s] in this state
+    heading_home: bool  # also when that is interrupted
+    return_requested: bool  # to head home when what goes on has come to its end
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return self.frame.time
+
+    @property
+    def pose(self) -> Pose:
+        return self.frame.pose
+
+    @property
+    def speed(self) -> float:
+        """[m/s] forward positive"""
+        return self.frame.speed
+
+
+class StateBehavior(ABC):
+    """What the rover does in one state, and what lasts from frame to frame there.
+
+    Only `enter` and `update` may change it: `event` and `act` are questions, with the same answers
+    when asked twice.
+    """
+
+    recoveries = 0  # manoeuvres begun in this state
+
+    def enter(self, tick: TickContext, before: State) -> None:  # noqa: B027
+        """The state begins at this frame."""
+
+    def update(self, tick: TickContext) -> None:  # noqa: B027
+        """A later frame has come in this state."""
+
+    @abstractmethod
+    def event(self, tick: TickContext) -> Event | None:
+        """What happened, None when all goes on as it is."""
+
+    @abstractmethod
+    def act(self, tick: TickContext) -> Action:
+        """The command for this frame, and why."""
