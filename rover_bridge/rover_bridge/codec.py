@@ -25,7 +25,7 @@ from rover_bridge.numbers import parse_number, parse_numbers
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.types import Command, Telemetry
-from rover_common.vehicle import MAX_STEERING
+from rover_common.vehicle import ROVER
 
 # Far beyond what the simulator can reach, near enough to catch a wrong separator or unit.
 POSITION_LIMIT = 1000.0  # [m]; the world is 200 m wide
@@ -96,7 +96,7 @@ def encode_drive(command: Command, decimal_comma: bool = False) -> dict[str, str
     if not all(math.isfinite(value) for value in values):
         values = (0.0, 0.0, 1.0)
     steering, throttle, brake = values
-    steering_deg = math.degrees(max(-MAX_STEERING, min(MAX_STEERING, steering)))
+    steering_deg = math.degrees(max(-ROVER.max_steering, min(ROVER.max_steering, steering)))
     drive = {
         "steering_angle": f"{steering_deg:.4f}",
         "throttle": f"{max(-1.0, min(1.0, throttle)):.4f}",

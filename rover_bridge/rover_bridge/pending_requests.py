@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rover_common.types import SAFE_COMMAND, Command
+from rover_common.vehicle import ROVER
 
-# A rover that rolls this slowly still holds its sample in reach while the arm starts.
-STANDING_SPEED = 0.2  # [m/s]
 # Telemetries that may pass before a pickup that was sent must show: the exchanges in flight, twice.
 PICKUP_TELEMETRIES = 6
 # A simulator has two or three exchanges in flight; one that floods is answered without a look.
@@ -102,7 +101,7 @@ class Exchange:
 
 
 def _can_pick_up(ticket: Ticket) -> bool:
-    return ticket.near_sample and abs(ticket.speed) <= STANDING_SPEED
+    return ticket.near_sample and abs(ticket.speed) <= ROVER.pickup_speed
 
 
 class _Arm:

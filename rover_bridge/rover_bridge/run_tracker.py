@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from rover_common.types import Run, Telemetry
-from rover_common.vehicle import MAX_SPEED
+from rover_common.vehicle import ROVER
 
 # [s] by which the clock falls back. Within a run a simulator's clock never does; a wall clock that
 # is set by the network falls back by less.
@@ -71,4 +71,4 @@ class RunTracker:
         if elapsed < -CLOCK_FELL_BACK or seen.sample_count > last.sample_count:
             return True
         moved = math.hypot(seen.x - last.x, seen.y - last.y)
-        return moved > POSE_JUMPED + MAX_SPEED * max(0.0, elapsed)
+        return moved > POSE_JUMPED + ROVER.max_speed * max(0.0, elapsed)

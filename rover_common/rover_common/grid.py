@@ -7,7 +7,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-WORLD_SIZE = 200.0  # [m] edge of the square world, origin at its south-west corner
+
+@dataclass(frozen=True)
+class WorldModel:
+    """The simulator's world: a square whose south-west corner is the map frame's origin."""
+
+    size: float  # [m] edge
+    start_x: float  # [m] map frame, where the rover starts in the original canyon
+    start_y: float  # [m]
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point [m] of the map frame lies in the world."""
+        return 0.0 <= x < self.size and 0.0 <= y < self.size
+
+
+WORLD = WorldModel(size=200.0, start_x=99.67, start_y=85.589)  # constants of the simulator
 
 
 @dataclass(frozen=True)
@@ -23,7 +37,7 @@ class GridGeometry:
     @classmethod
     def of_world(cls, resolution: float) -> GridGeometry:
         """The grid that covers the simulator's world."""
-        count = round(WORLD_SIZE / resolution)
+        count = round(WORLD.size / resolution)
         return cls(resolution, count, count)
 
     def cell_of(self, x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -8,6 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.grid import GridGeometry
+
+CELLS = GridGeometry.of_world(1.0)
+
 
 class TruthError(ValueError):
     """The ground truth cannot be read."""
@@ -21,8 +25,9 @@ def load_truth(path: Path) -> NDArray[np.bool_]:
     image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
     if image is None:
         raise TruthError(f"{path}: not an image")
-    if image.shape != (200, 200):
-        raise TruthError(f"{path}: {image.shape[1]} x {image.shape[0]} pixels, expected 200 x 200")
+    rows, cols = image.shape
+    if (rows, cols) != (CELLS.rows, CELLS.cols):
+        raise TruthError(f"{path}: {cols} x {rows} pixels, expected {CELLS.cols} x {CELLS.rows}")
     if not image.any():
         raise TruthError(f"{path}: no navigable cell")
     return image > 0

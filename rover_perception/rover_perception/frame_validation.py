@@ -8,7 +8,7 @@ import numpy as np
 
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose
-from rover_common.grid import WORLD_SIZE
+from rover_common.grid import WORLD
 from rover_common.types import CameraFrame
 
 
@@ -70,7 +70,7 @@ def _same_rendering(first: CameraFrame, second: CameraFrame) -> bool:
 def _check_pose(pose: Pose) -> None:
     if not all(map(math.isfinite, (pose.x, pose.y, pose.yaw, pose.pitch, pose.roll))):
         raise PoseError(f"pose is not finite: {pose}")
-    if not (0.0 <= pose.x < WORLD_SIZE and 0.0 <= pose.y < WORLD_SIZE):
+    if not WORLD.contains(pose.x, pose.y):
         raise OutsideError(f"pose is outside of the world: {pose}")
 
 

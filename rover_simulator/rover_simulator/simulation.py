@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rover_common.geometry import Pose
-from rover_common.vehicle import MAX_STEERING
+from rover_common.vehicle import ROVER
 from rover_simulator.sensors.renderer import Renderer, encode_jpeg
 from rover_simulator.vehicle.arm import Arm
 from rover_simulator.vehicle.command_values import check_base64, parse_number
@@ -112,7 +112,7 @@ class Simulation:
         """In the order steering, throttle, brake, insets; ignored while the body is held."""
         before = self._controls
         steering = math.radians(parse_number(data["steering_angle"]))
-        steering = max(-MAX_STEERING, min(MAX_STEERING, steering))
+        steering = max(-ROVER.max_steering, min(ROVER.max_steering, steering))
         self._hold(Controls(steering, before.throttle, before.brake))
         throttle = parse_number(data["throttle"])
         self._hold(Controls(steering, throttle, before.brake))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
-from rover_common.grid import WORLD_SIZE
+from rover_common.grid import WORLD
 from rover_simulator.sensors.shading import SUN, ground_colors, noise, shine, sky_colors
 from rover_simulator.world import boulders
 from rover_simulator.world.profile import sand_at
@@ -189,7 +189,7 @@ class Renderer:
         x, y = _grid(SHADOW)
         start = np.stack([x, y, terrain.height_at(x, y) + SHADOW_BIAS], axis=1)
         blocked = self._trace(start, np.broadcast_to(SUN, start.shape))["geomID"] >= 0
-        cells, shadow_cells = round(WORLD_SIZE * PAINT), round(WORLD_SIZE * SHADOW)
+        cells, shadow_cells = round(WORLD.size * PAINT), round(WORLD.size * SHADOW)
         shade = blocked.reshape(shadow_cells, shadow_cells).astype(np.float32)
         shade = np.asarray(cv2.resize(shade, (cells, cells), interpolation=cv2.INTER_LINEAR))
         sand = sand_at(terrain.outside_at(*_grid(PAINT))).astype(np.float32)
@@ -206,7 +206,7 @@ class Renderer:
 
 def _grid(density: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """x and y (n,) [m] of the middles of all cells, row by row; density in cells per metre."""
-    at = (np.arange(round(WORLD_SIZE * density)) + 0.5) / density
+    at = (np.arange(round(WORLD.size * density)) + 0.5) / density
     x, y = np.meshgrid(at, at)
     return x.ravel(), y.ravel()
 

@@ -6,18 +6,16 @@ import math
 from dataclasses import dataclass
 
 from rover_common.geometry import Pose, wrap_angle
-from rover_common.vehicle import ARM_FORWARD, PICKUP_SECONDS
+from rover_common.vehicle import ROVER
 
 Point = tuple[float, float]  # x, y [m] map frame
-
-REACH = 0.57  # [m] around the point ahead, by the sample's size 0.55 to 0.60
 
 # The simulator's phases [s]: turn, reach, lift, turn back, place, reset. The gripper holds the
 # sample from the end of the reach to the end of the place; then it lies on the flatbed.
 PHASES = (1.0, 1.5, 1.5, 1.5, 1.5, 3.0)
 GRIPPED, LIFTED, TURNED_BACK, PLACED = 2.5, 4.0, 5.5, 7.0  # [s] ends of the phases between
 
-SHOULDER_FORWARD = ARM_FORWARD - 0.5  # [m] the reach begins half a metre ahead of the shoulder
+SHOULDER_FORWARD = ROVER.arm_forward - 0.5  # [m] the reach begins half a metre further ahead
 # Where the sample goes is not published; the lengths between are chosen, not measured.
 CARRIED_RADIUS = 0.4  # [m] from the shoulder while the arm turns back
 FLATBED_RADIUS = SHOULDER_FORWARD - 0.061  # [m] behind the shoulder: the middle of the flatbed
@@ -39,7 +37,7 @@ class Arm:
     @property
     def lifted(self) -> Point | None:
         """Where the sample lay that the gripper has taken from the ground."""
-        if self._held is None or PICKUP_SECONDS - self._left <= GRIPPED:
+        if self._held is None or ROVER.pickup_seconds - self._left <= GRIPPED:
             return None
         return self._held.found
 
@@ -56,7 +54,7 @@ class Arm:
         self.frozen = index is None
         if index is not None:
             self._held = _Held.at(self.samples[index], pose, index)
-            self._left = PICKUP_SECONDS
+            self._left = ROVER.pickup_seconds
 
     def advance(self, seconds: float) -> None:
         """Time goes on; the sample leaves the lists one frame before the sequence ends."""
@@ -69,15 +67,15 @@ class Arm:
             del self.samples[self._held.index]
             self._held = None
         else:
-            self.samples[self._held.index] = self._held.position(PICKUP_SECONDS - self._left)
+            self.samples[self._held.index] = self._held.position(ROVER.pickup_seconds - self._left)
 
     def _in_reach(self, pose: Pose) -> int | None:
-        x = pose.x + ARM_FORWARD * math.cos(pose.yaw)
-        y = pose.y + ARM_FORWARD * math.sin(pose.yaw)
+        x = pose.x + ROVER.arm_forward * math.cos(pose.yaw)
+        y = pose.y + ROVER.arm_forward * math.sin(pose.yaw)
         near = (
             index
             for index, sample in enumerate(self.samples)
-            if math.hypot(sample[0] - x, sample[1] - y) < REACH
+            if math.hypot(sample[0] - x, sample[1] - y) < ROVER.arm_radius_median
         )
         return next(near, None)
 

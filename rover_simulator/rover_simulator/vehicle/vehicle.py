@@ -9,14 +9,7 @@ import math
 from dataclasses import dataclass, replace
 
 from rover_common.geometry import Pose, wrap_angle
-from rover_common.vehicle import (
-    MAX_REVERSE_SPEED,
-    MAX_SPEED,
-    MAX_STEERING,
-    TURN_IN_PLACE_BELOW,
-    TURN_IN_PLACE_RATE,
-    WHEELBASE,
-)
+from rover_common.vehicle import ROVER
 
 STEP = 0.02  # [s]
 GRAVITY = 9.81  # [m/s^2]
@@ -24,7 +17,7 @@ DRIVE = 0.852  # [m/s^2] per unit of throttle: 4 wheels x 25 N m / 0.1485 m over
 COAST = 0.0574  # [1/s] wheel damping
 # Brake input and the deceleration [m/s^2] that it gives; the wheels lock beyond 3.
 BRAKE_INPUT = (0.0, 0.83, 1.0, 2.0, 5.0)
-BRAKE_DECELERATION = (0.0, 2.5, 2.5, 4.2, 7.0)
+BRAKE_DECELERATION = (0.0, ROVER.full_brake_deceleration, ROVER.full_brake_deceleration, 4.2, 7.0)
 YAW_COASTING, YAW_DRIVEN = 0.92, 0.96  # of the kinematic yaw rate
 # Deceleration per sideways acceleration; measured at full steering: 0.03 m/s^2 at 1.75 m/s,
 # 0.06 at 2.75 and 0.13 at 3.75, where the rover is pushed sideways with 0.8, 1.6 and 2.4 m/s^2.
@@ -43,7 +36,6 @@ PITCH_PER_ACCELERATION = math.radians(2.5)  # [rad s^2/m]
 ROLL_PER_ACCELERATION = math.radians(3.5)  # [rad s^2/m]
 SIDE_SLIP = 0.3  # [s] sideways speed per sideways component of gravity beyond what tyres hold
 SIDE_HOLD = 0.6  # sideways slope that the tyres hold
-STANDING = 0.01  # [m/s] slower is reported as zero
 
 
 @dataclass(frozen=True)
@@ -76,7 +68,7 @@ class Vehicle:
 
     @property
     def reported_speed(self) -> float:
-        return 0.0 if abs(self.speed) < STANDING else self.speed
+        return 0.0 if abs(self.speed) < ROVER.least_reported_speed else self.speed
 
     def halt(self) -> None:
         """Freeze the body, as the arm's sequence does."""
@@ -103,35 +95,34 @@ class Vehicle:
     def step(self, controls: Controls, slope: Slope) -> None:
         """One step of 0.02 s."""
         motor = controls.throttle != 0.0 or controls.brake != 0.0
-        slow = abs(self.speed) < TURN_IN_PLACE_BELOW
+        slow = abs(self.speed) < ROVER.turn_in_place_below
         self._turning = not motor and controls.steering != 0.0 and (self._turning or slow)
         before = self.speed
         if self._turning:
             self.speed = 0.0
             self._yaw_rate = 0.0
-            self._move(0.0, TURN_IN_PLACE_RATE * controls.steering, 0.0, slope)
+            self._move(0.0, ROVER.turn_in_place_rate * controls.steering, 0.0, slope)
             self._tilt(0.0, 0.0, slope)
             return
         steady = self._steady_yaw_rate(controls)
         self._yaw_rate += (steady - self._yaw_rate) * STEP / (STEP + YAW_DELAY * abs(self.speed))
         rate = self._yaw_rate
         self._accelerate(controls, rate, slope)
-        inside = math.atan(AXLE_BEHIND * math.tan(self._wheel_angle(controls)) / WHEELBASE)
+        inside = math.atan(AXLE_BEHIND * math.tan(self._wheel_angle(controls)) / ROVER.wheelbase)
         self._move(self.speed, rate, inside - SIDE_GIVE * abs(self.speed) * rate, slope)
-        drive = DRIVE * controls.throttle if self.speed < MAX_SPEED - 0.01 else DRIVE
+        drive = DRIVE * controls.throttle if self.speed < ROVER.max_speed - 0.01 else DRIVE
         braking = (before - self.speed) / STEP if controls.brake else 0.0
         self._tilt(drive * bool(controls.throttle) - braking, self.speed * rate, slope)
 
     def _steady_yaw_rate(self, controls: Controls) -> float:
         """Yaw rate [rad/s] of a long turn at this speed: a part of what the wheels' angle gives."""
         factor = YAW_DRIVEN if controls.throttle else YAW_COASTING
-        return factor * self.speed * math.tan(self._wheel_angle(controls)) / WHEELBASE
+        return factor * self.speed * math.tan(self._wheel_angle(controls)) / ROVER.wheelbase
 
     def _wheel_angle(self, controls: Controls) -> float:
-        """Front wheels [rad]: 15 degrees at rest, 5 at 5 m/s, doubled in reverse."""
-        limit = math.radians(5.0 + 10.0 * max(0.0, 1.0 - abs(self.speed) / MAX_SPEED))
+        """Front wheels [rad]: less at speed, doubled in reverse."""
         double = 2.0 if controls.throttle < 0 else 1.0
-        return double * limit * controls.steering / MAX_STEERING
+        return double * ROVER.wheel_limit(self.speed) * controls.steering / ROVER.max_steering
 
     def _accelerate(self, controls: Controls, rate: float, slope: Slope) -> None:
         along, _ = self._slope_in_body(slope)
@@ -140,7 +131,7 @@ class Vehicle:
         brake = _interpolate(abs(controls.brake), BRAKE_INPUT, BRAKE_DECELERATION)
         loss = (brake + CORNERING * abs(rate) * abs(self.speed)) * STEP
         self.speed = math.copysign(max(0.0, abs(self.speed) - loss), self.speed)
-        limit = MAX_REVERSE_SPEED if controls.throttle < 0 else MAX_SPEED
+        limit = ROVER.max_reverse_speed if controls.throttle < 0 else ROVER.max_speed
         self.speed = max(-limit, min(limit, self.speed))
 
     def _move(self, speed: float, rate: float, slip: float, slope: Slope) -> None:

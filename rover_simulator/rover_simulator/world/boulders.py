@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_common.geometry import Pose
+from rover_common.vehicle import ROVER
 
 # In the original, holes of 1 to 5 cells are rocks, larger ones are walls with a floor around them.
 LARGEST_HOLE = 6  # [cells of 1 m]
 RADIUS = (0.35, 0.55)  # [m]
 HEIGHT = (0.3, 0.6)  # [m] tops of the rocks near the original's start: 0.06 to 0.59
-# What the rover stands on: its wheels reach this far from its origin.
-BODY_FRONT, BODY_REAR, BODY_SIDE = 0.535, 0.485, 0.44  # [m]
 
 
 @dataclass(frozen=True)
@@ -53,7 +52,8 @@ def overlap(pose: Pose, boulders: list[Boulder]) -> float:
         dx, dy = boulder.x - pose.x, boulder.y - pose.y
         ahead, aside = c * dx + s * dy, abs(c * dy - s * dx)
         beyond = math.hypot(
-            max(0.0, ahead - BODY_FRONT, -BODY_REAR - ahead), max(0.0, aside - BODY_SIDE)
+            max(0.0, ahead - ROVER.body_front, -ROVER.body_rear - ahead),
+            max(0.0, aside - ROVER.body_half_width),
         )
         deepest = max(deepest, boulder.radius - beyond)
     return deepest

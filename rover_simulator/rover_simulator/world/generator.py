@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_common.geometry import Pose
+from rover_common.grid import WORLD
 from rover_common.ground_truth import load_truth
-from rover_common.vehicle import START_X, START_Y
 from rover_simulator.world.samples import place_samples
 from rover_simulator.world.world import World
 
@@ -67,8 +67,8 @@ def world_on_ground(truth: NDArray[np.bool_], name: str, seed: int) -> World:
     the ground nearest to the map's middle.
     """
     random = default_rng(seed)
-    row, col = int(START_Y), int(START_X)
-    x, y = START_X, START_Y
+    x, y = WORLD.start_x, WORLD.start_y
+    row, col = int(y), int(x)
     if not truth[row, col]:
         depth = ndimage.distance_transform_edt(truth)
         rows, cols = np.nonzero(depth >= 0.7 * depth.max())
