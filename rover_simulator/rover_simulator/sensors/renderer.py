@@ -34,8 +34,7 @@ BEYOND = 1e-3  # [m] past the ground that is seen from behind
 SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
 TEXTURE = 0.06  # of the ground's colour: its fine texture near the camera, one pixel from afar
 TEXTURE_RANGE = 0.8  # [m] over which it fades
-JPEG_QUALITY = 75
-SHAPE = (ROVER_CAMERA.height, ROVER_CAMERA.width)
+HEIGHT, WIDTH = ROVER_CAMERA.height, ROVER_CAMERA.width
 
 SAMPLE_RADIUS, SAMPLE_HEIGHT = 0.08, 0.13  # [m]
 
@@ -79,12 +78,15 @@ class Renderer:
         self._scene = rtcore_scene.EmbreeScene()
         self._meshes = [TriangleMesh(self._scene, *solid) for solid in self._solids]
 
-    def render(self, pose: Pose, ground: float = 0.0) -> Rendering:
-        """What the camera sees at a pose on ground of this height [m]."""
+    def render(self, pose: Pose, ground: float = 0.0, first_row: int = 0) -> Rendering:
+        """What the camera sees at a pose on ground of this height [m].
+
+        Rows above `first_row` stay black, and samples in them are not counted.
+        """
         rotation = rotation_matrix(pose)
         origin = np.array([pose.x, pose.y, ground + ORIGIN_HEIGHT])
         origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
-        rays = self._rays @ rotation.T.astype(np.float32)
+        rays = self._rays[first_row * WIDTH :] @ rotation.T.astype(np.float32)
         geometry, distance = self._cast(origin, rays)
         # One array per coordinate and colour: numpy is slow along an axis of three.
         x, y = (np.float32(origin[axis]) + rays[:, axis] * distance for axis in (0, 1))
@@ -99,7 +101,8 @@ class Renderer:
         sky = np.flatnonzero(geometry < 0)
         colors[:, sky] = sky_colors(rays[sky]).T
         levels = np.clip(colors, 0, 255).astype(np.uint8)
-        image = np.asarray(cv2.merge([plane.reshape(SHAPE) for plane in levels]))
+        image = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+        image[first_row:] = cv2.merge([plane.reshape(-1, WIDTH) for plane in levels])
         pixels = np.bincount(geometry[geometry >= 0], minlength=len(self._meshes))[1:]
         return Rendering(image, pixels[: len(self._samples)])
 
@@ -163,7 +166,8 @@ class Renderer:
         self, x: NDArray[np.float32], y: NDArray[np.float32]
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Colours (3, n) of the ground at points (n,) [m], and its fine texture (n,)."""
-        x, y = ((line * PAINT - 0.5).reshape(SHAPE) for line in (x, y))  # remap takes no long lines
+        # remap takes no long lines
+        x, y = ((line * PAINT - 0.5).reshape(-1, WIDTH) for line in (x, y))
         painted = cv2.remap(self._colors, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         fine = cv2.remap(
             self._grain, x * GRAIN_SCALE, y * GRAIN_SCALE, cv2.INTER_LINEAR, None, cv2.BORDER_WRAP
@@ -209,18 +213,6 @@ def _grid(density: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     at = (np.arange(round(WORLD_SIZE * density)) + 0.5) / density
     x, y = np.meshgrid(at, at)
     return x.ravel(), y.ravel()
-
-
-def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
-    """A JPEG file as the simulator writes it: quality 75, colour at half resolution."""
-    parameters = [
-        cv2.IMWRITE_JPEG_QUALITY,
-        JPEG_QUALITY,
-        cv2.IMWRITE_JPEG_SAMPLING_FACTOR,
-        cv2.IMWRITE_JPEG_SAMPLING_FACTOR_420,
-    ]
-    _, data = cv2.imencode(".jpg", cv2.cvtColor(image, cv2.COLOR_RGB2BGR), parameters)
-    return data.tobytes()
 
 
 def _sample_mesh(x: float, y: float) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
