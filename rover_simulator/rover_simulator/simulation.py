@@ -6,8 +6,6 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
-
 from rover_common.geometry import Pose
 from rover_common.vehicle import MAX_STEERING
 from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
@@ -171,7 +169,7 @@ class Simulation:
 
     def _ground_height(self) -> float:
         pose = self._vehicle.pose
-        return float(self._terrain.height_at(np.array([pose.x]), np.array([pose.y]))[0])
+        return self._terrain.height_at_point(pose.x, pose.y)
 
     def _photograph(self) -> bytes:
         """What the camera sees now; a body that is held sees the same as a frame ago."""

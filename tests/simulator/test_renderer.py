@@ -110,6 +110,15 @@ def test_heights_follow_the_profile_and_the_seed():
     assert (drawn != Terrain.of(canyon, 8).heights).any()
 
 
+def test_the_height_at_one_point_is_that_of_many_to_the_bit():
+    terrain = Terrain.of(HALL, 3)
+    x, y = np.random.default_rng(0).uniform(-1.0, 201.0, (2, 2000))
+    x[:500], y[:500] = np.round(x[:500]), np.round(y[:500] / SPACING) * SPACING  # grid lines
+    heights = terrain.height_at(x, y)
+    assert (heights > 0.0).sum() > 1000
+    assert [terrain.height_at_point(*point) for point in zip(x, y, strict=True)] == heights.tolist()
+
+
 def test_samples_stand_where_the_ground_is_low_and_show():
     sample = np.array([[141.9, 101.3]])  # on the foot of the hall's east wall
     plain = Terrain.of(HALL, 3)

@@ -124,7 +124,7 @@ class Renderer:
         if len(searched):
             there = rays[searched]
             hit = self._trace(np.broadcast_to(origin, there.shape), there)
-            if self._terrain.height_at(origin[:1], origin[1:2])[0] > origin[2]:
+            if self._terrain.height_at_point(*origin[:2].tolist()) > origin[2]:
                 self._look_out_of_the_ground(origin, there, hit)
             geometry[searched] = hit["geomID"]
             distance[searched] = np.where(hit["geomID"] >= 0, hit["tfar"], 0.0)
