@@ -63,9 +63,9 @@ def test_lit_sand_by_the_angle_to_the_sun(renderer, bearing_deg, color):
 def test_sky_darkens_upward(elevation_deg, red):
     azimuth = np.radians(np.arange(0, 360, 5.0))
     elevation = math.radians(elevation_deg)
-    level = np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1) * math.cos(elevation)
-    rays = np.column_stack([level, np.full(len(azimuth), math.sin(elevation))])
-    assert sky_colors(rays.astype(np.float32))[:, 0].mean() == pytest.approx(red, abs=8)
+    level = np.stack([np.cos(azimuth), np.sin(azimuth)]) * math.cos(elevation)
+    rays = np.vstack([level, np.full(len(azimuth), math.sin(elevation))])
+    assert sky_colors(rays.astype(np.float32))[0].mean() == pytest.approx(red, abs=8)
 
 
 def test_a_wall_hides_nothing_from_inside(renderer, terrain):
@@ -91,7 +91,7 @@ def test_a_sample_shows_yellow_and_is_counted(renderer):
 def test_rays_to_the_bare_floor_need_no_search(renderer, monkeypatch):
     pose = Pose(110, 95, 0.4, 0.02, -0.01)
     short = renderer.render(pose).image.astype(int)
-    monkeypatch.setattr(renderer, "_bare", lambda origin: 0.0)
+    monkeypatch.setattr(renderer._scene, "_bare_radius", lambda origin: 0.0)
     assert np.abs(short - renderer.render(pose).image).max() <= 1
 
 
