@@ -1,11 +1,14 @@
-"""In which order to visit places, given the seconds between them, to end at home soonest."""
+"""The order in which to visit places, given the seconds between them, to be home soonest."""
 
 from __future__ import annotations
+
+from functools import cache
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-MOST_STOPS = 9  # the exact solution takes time and memory with the power of this
+MOST_STOPS = 9  # time and memory of the exact solution grow exponentially with this
 
 
 def tour_costs(
@@ -23,15 +26,23 @@ def tour_costs(
     count = len(first)
     if count > MOST_STOPS:
         raise ValueError(f"{count} stops, at most {MOST_STOPS}")
-    everything = (1 << count) - 1
-    # to_end[left, stop]: shortest way from the stop through all of the set `left`, then the end
-    to_end = np.full((everything + 1, count), np.inf)
+    # to_end[left, stop]: shortest path from the stop through all of the set `left`, then the end
+    to_end = np.full((1 << count, count), np.inf)
     to_end[0] = last
-    for left in range(1, everything + 1):
-        members = [stop for stop in range(count) if left >> stop & 1]
-        onward = [to_end[left & ~(1 << stop), stop] for stop in members]
-        dropped = [to_end[left & ~(1 << stop)] + worth[stop] for stop in members]
-        visit = (between[:, members] + np.array(onward)).min(axis=1)
-        to_end[left] = np.minimum(visit, np.min(dropped, axis=0))
-    rest = [to_end[everything & ~(1 << stop), stop] for stop in range(count)]
-    return np.asarray(first + np.array(rest))
+    for sets, members in _sets_by_size(count):
+        fewer = sets[:, None] & ~(1 << members)  # (sets, size): without each of the members
+        onward = to_end[fewer, members]
+        visit = (between[:, members] + onward).min(axis=-1).T
+        skip = (to_end[fewer] + worth[members][:, :, None]).min(axis=1)
+        to_end[sets] = np.minimum(visit, skip)
+    stops = np.arange(count)
+    others = (1 << count) - 1 & ~(1 << stops)
+    return np.asarray(first + to_end[others, stops])
+
+
+@cache
+def _sets_by_size(count: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """For each size from 1 to `count`, the sets of stops as bits (n,), and members (n, size)."""
+    stops = range(count)
+    by_size = [np.array(list(combinations(stops, size))) for size in range(1, count + 1)]
+    return [((1 << members).sum(axis=1), members) for members in by_size]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
-
-import numpy as np
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import ROVER
-from rover_simulator.sensors.renderer import Renderer, encode_jpeg
+from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
+from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.vehicle.arm import Arm
 from rover_simulator.vehicle.command_values import check_base64, parse_number
 from rover_simulator.vehicle.fixed_turn import FixedTurn
@@ -45,7 +44,16 @@ class Simulation:
         self._untouched = math.inf  # [s] since the last touch
         self._image = b""
         self._photographed_at: Pose | None = None  # None: the next picture is another in any case
+        self._first_row: Callable[[Pose], int] = lambda _: 0
         self._next_image = self._photograph()
+
+    def crop_pictures(self, first_row: Callable[[Pose], int]) -> None:
+        """Render the next pictures from a row on that depends on the camera's pose.
+
+        Above, where nobody looks, they are black. From that row on, the decoded JPEG file has the
+        same pixels as that of the whole picture.
+        """
+        self._first_row = first_row
 
     @property
     def pose(self) -> Pose:
@@ -161,12 +169,14 @@ class Simulation:
 
     def _ground_height(self) -> float:
         pose = self._vehicle.pose
-        return float(self._terrain.height_at(np.array([pose.x]), np.array([pose.y]))[0])
+        return self._terrain.height_at_point(pose.x, pose.y)
 
     def _photograph(self) -> bytes:
         """What the camera sees now; a body that is held sees the same as a frame ago."""
-        if self._vehicle.pose == self._photographed_at:
+        pose = self._vehicle.pose
+        if pose == self._photographed_at:
             return self._next_image
-        self._photographed_at = self._vehicle.pose
-        rendering = self._renderer.render(self._vehicle.pose, self._ground_height())
+        self._photographed_at = pose
+        first_row = first_row_to_encode(self._first_row(pose))
+        rendering = self._renderer.render(pose, self._ground_height(), first_row)
         return encode_jpeg(rendering.image)

@@ -63,9 +63,9 @@ def test_lit_sand_by_the_angle_to_the_sun(renderer, bearing_deg, color):
 def test_sky_darkens_upward(elevation_deg, red):
     azimuth = np.radians(np.arange(0, 360, 5.0))
     elevation = math.radians(elevation_deg)
-    level = np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1) * math.cos(elevation)
-    rays = np.column_stack([level, np.full(len(azimuth), math.sin(elevation))])
-    assert sky_colors(rays.astype(np.float32))[:, 0].mean() == pytest.approx(red, abs=8)
+    level = np.stack([np.cos(azimuth), np.sin(azimuth)]) * math.cos(elevation)
+    rays = np.vstack([level, np.full(len(azimuth), math.sin(elevation))])
+    assert sky_colors(rays.astype(np.float32))[0].mean() == pytest.approx(red, abs=8)
 
 
 def test_a_wall_hides_nothing_from_inside(renderer, terrain):
@@ -91,7 +91,7 @@ def test_a_sample_shows_yellow_and_is_counted(renderer):
 def test_rays_to_the_bare_floor_need_no_search(renderer, monkeypatch):
     pose = Pose(110, 95, 0.4, 0.02, -0.01)
     short = renderer.render(pose).image.astype(int)
-    monkeypatch.setattr(renderer, "_bare", lambda origin: 0.0)
+    monkeypatch.setattr(renderer._scene, "_bare_radius", lambda origin: 0.0)
     assert np.abs(short - renderer.render(pose).image).max() <= 1
 
 
@@ -108,6 +108,15 @@ def test_heights_follow_the_profile_and_the_seed():
     assert (drawn[medians == 0.0] == 0.0).all()
     assert (drawn == Terrain.of(canyon, 7).heights).all()
     assert (drawn != Terrain.of(canyon, 8).heights).any()
+
+
+def test_the_height_at_one_point_is_that_of_many_to_the_bit():
+    terrain = Terrain.of(HALL, 3)
+    x, y = np.random.default_rng(0).uniform(-1.0, 201.0, (2, 2000))
+    x[:500], y[:500] = np.round(x[:500]), np.round(y[:500] / SPACING) * SPACING  # grid lines
+    heights = terrain.height_at(x, y)
+    assert (heights > 0.0).sum() > 1000
+    assert [terrain.height_at_point(*point) for point in zip(x, y, strict=True)] == heights.tolist()
 
 
 def test_samples_stand_where_the_ground_is_low_and_show():

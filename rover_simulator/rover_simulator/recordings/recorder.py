@@ -15,7 +15,8 @@ from skimage.graph import MCP_Geometric
 
 from rover_common.geometry import Pose
 from rover_simulator.recordings.recording import LOG_NAME
-from rover_simulator.sensors.renderer import Renderer, encode_jpeg
+from rover_simulator.sensors.jpeg import encode_jpeg
+from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.world.generator import generate_world
 from rover_simulator.world.terrain import Terrain
 from rover_simulator.world.world import World

@@ -68,28 +68,34 @@ def noise(shape: tuple[int, ...], sigma: float, seed: int) -> NDArray[np.float32
 
 
 def shine(
-    colors: NDArray[np.float32], rays: NDArray[np.float32], distance: NDArray[np.float32]
+    colors: NDArray[np.float32],
+    rays: NDArray[np.float32],
+    level: NDArray[np.float32],
+    distance: NDArray[np.float32],
 ) -> None:
-    """Change ground (3, n), seen along rays (n, 3) at distances (n,) [m], where it is bright."""
-    where = np.flatnonzero(colors[0] > 100.0)
-    ray = rays[where, :2]
-    bright = np.minimum((colors[0, where] - 100.0) / 100.0, 1.0)
-    gain = np.interp(distance[where], SAND_RANGE, SAND_GAIN).astype(np.float32) - 1.0
-    toward = np.maximum(ray @ SHEEN_TO, 0.0) / np.hypot(ray[:, 0], ray[:, 1])  # cosine of an angle
+    """Change ground (3, n), seen along rays (3, n) at distances (n,) [m], where it is bright.
+
+    `level` (n,) is the length of the rays' horizontal parts.
+    """
+    bright = np.clip((colors[0] - 100.0) / 100.0, 0.0, 1.0)
+    gain = np.interp(distance, SAND_RANGE, SAND_GAIN).astype(np.float32) - 1.0
+    toward = rays[0] * SHEEN_TO[0] + rays[1] * SHEEN_TO[1]
+    toward = np.maximum(toward, 0.0) / level  # cosine of an angle
     factor = 1.0 + bright * gain
     sheen = bright * np.square(np.square(toward))
+    colors *= factor
     for plane, extra in zip(colors, SHEEN, strict=True):
-        plane[where] = plane[where] * factor + sheen * extra
+        plane += sheen * extra
 
 
 def from_sun(rays: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Azimuths (n,) [rad] of rays (n, 3) in the map frame, counted from the sun's."""
-    return np.arctan2(rays[:, 1], rays[:, 0]) - np.float32(SUN_AZIMUTH)
+    """Azimuths (n,) [rad] of rays (3, n) in the map frame, counted from the sun's."""
+    return np.arctan2(rays[1], rays[0]) - np.float32(SUN_AZIMUTH)
 
 
 def sky_colors(rays: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Colours (n, 3) of the sky along unit rays (n, 3)."""
-    elevation = np.degrees(np.arcsin(np.clip(rays[:, 2], -1, 1)))
+    """Colours (3, n) of the sky along unit rays (3, n)."""
+    elevation = np.degrees(np.arcsin(np.clip(rays[2], -1, 1)))
     red = np.interp(elevation, SKY_ELEVATION_DEG, SKY_RED)
     red += SKY_SUNWARD * np.maximum(0.0, np.cos(from_sun(rays))) + SKY_ELSEWHERE
-    return (red[:, None] + SKY_TINT).astype(np.float32)
+    return (red + SKY_TINT[:, None]).astype(np.float32)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,13 +66,30 @@ class Terrain:
         at = [np.asarray(y) / SPACING, np.asarray(x) / SPACING]
         return ndimage.map_coordinates(self.heights, at, order=1, mode="nearest")
 
+    def height_at_point(self, x: float, y: float) -> float:
+        """What `height_at` gives for one point [m], without the cost of arrays."""
+        row, col = min(max(y / SPACING, 0.0), COUNT - 1.0), min(max(x / SPACING, 0.0), COUNT - 1.0)
+        top, left = min(int(row), COUNT - 2), min(int(col), COUNT - 2)
+        upper, lower = self._rows[top], self._rows[top + 1]
+        a, b, c, d = upper[left], upper[left + 1], lower[left], lower[left + 1]
+        if a == b == c == d:  # the floor
+            return a
+        down, right = row - top, col - left
+        up, back = 1.0 - down, 1.0 - right
+        return _single(a * up * back + b * up * right + c * down * back + d * down * right)
+
     def slope_at(self, x: float, y: float) -> Slope:
         """Rise of the ground at a point [m], over half a metre as the wheels feel it."""
         reach = 0.25
-        east, west, north, south = self.height_at(
-            np.array([x + reach, x - reach, x, x]), np.array([y, y, y + reach, y - reach])
-        )
-        return Slope(float(east - west) / (2 * reach), float(north - south) / (2 * reach))
+        east, west = self.height_at_point(x + reach, y), self.height_at_point(x - reach, y)
+        north, south = self.height_at_point(x, y + reach), self.height_at_point(x, y - reach)
+        return Slope(_single(east - west) / (2 * reach), _single(north - south) / (2 * reach))
+
+    @cached_property
+    def _rows(self) -> list[list[float]]:
+        """The heights as plain numbers."""
+        rows: list[list[float]] = self.heights.tolist()
+        return rows
 
     def triangles(self) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
         """Vertices (n, 3) [m] and triangles (m, 3) of the height field, its flat parts in two."""
@@ -123,3 +141,8 @@ def _sample(grid: NDArray[np.float32], x: NDArray, y: NDArray) -> NDArray[np.flo
     """Bilinear value of the fine grid, whose cell centres lie at (i + 0.5) / FINE [m]."""
     at = [np.asarray(y) * FINE - 0.5, np.asarray(x) * FINE - 0.5]
     return ndimage.map_coordinates(grid, at, order=1, mode="nearest")
+
+
+def _single(value: float) -> float:
+    """Rounded to single precision, that of the heights."""
+    return float(np.float32(value))

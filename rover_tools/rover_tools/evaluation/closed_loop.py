@@ -6,6 +6,7 @@ test holds it against the graph frame for frame.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_bridge.codec import decode_telemetry, encode_drive
+from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
 from rover_common.types import CameraFrame, FreeScan, GridMap, RockTrack, Telemetry, VehicleState
 from rover_decision.config import DecisionConfig
@@ -21,9 +23,14 @@ from rover_decision.states import State
 from rover_decision.types import Decision, Snapshot
 from rover_navigation.plan_scheduler import PlanDesk
 from rover_navigation.planner import Planner
+from rover_perception.camera.ground_projection import View
+from rover_perception.camera.segmentation import ABOVE_HORIZON, NEAREST_ROWS
 from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
 from rover_simulator.simulation import Simulation
+
+# [px] The telemetry's pose is rounded, so perception may find the horizon one row higher.
+POSE_ROUNDING = 1
 
 
 @dataclass(frozen=True)
@@ -52,6 +59,7 @@ class Loop:
         """`mission` and `planner` take the place of those that `decision` describes."""
         config = decision or DecisionConfig()
         self.simulation = simulation
+        simulation.crop_pictures(first_row_read)
         self.perception = Perception(perception or PerceptionConfig())
         self.mission = mission or Mission(config)
         planner = planner or Planner(config.explorer)
@@ -72,7 +80,7 @@ class Loop:
         while True:
             decision = answers[-1]
             for answer in answers:
-                self._answer(answer)
+                self.answer(answer)
             if decision.state is State.DONE or self.simulation.time >= time_limit:
                 break
             self.simulation.advance()
@@ -106,7 +114,8 @@ class Loop:
             self._desk.give_map(stamp, self.perception.navigation_map())
         return decision
 
-    def _answer(self, decision: Decision) -> None:
+    def answer(self, decision: Decision) -> None:
+        """Hand the simulator what was decided."""
         if decision.command.pickup:
             self.simulation.handle("pickup", {})
         else:
@@ -114,6 +123,15 @@ class Loop:
 
     def _position(self) -> tuple[float, float]:
         return self.simulation.pose.x, self.simulation.pose.y
+
+
+def first_row_read(pose: Pose) -> int:
+    """The first row that perception reads of an image taken at this pose; 0 for one it refuses."""
+    view = View.of(ROVER_CAMERA, pose)
+    if not view.usable:
+        return 0
+    row = math.floor(view.highest_horizon) - ABOVE_HORIZON - POSE_ROUNDING
+    return min(max(row, 0), ROVER_CAMERA.height - NEAREST_ROWS)
 
 
 def _through_message(pose: Pose) -> Pose:
