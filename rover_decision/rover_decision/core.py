@@ -22,9 +22,16 @@ from rover_navigation.plan_scheduler import MakePlan, MakeRequest, PlanScheduler
 class Mission(Protocol):
     """What a mission offers to the core; an instance serves one run."""
 
-    state: IntEnum
-    over: bool  # nothing is left to do
-    idle: bool  # it has not begun
+    @property
+    def state(self) -> IntEnum: ...
+
+    @property
+    def over(self) -> bool:
+        """Nothing is left to do."""
+
+    @property
+    def idle(self) -> bool:
+        """It has not begun."""
 
     def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
         """Decide about one frame."""

@@ -39,7 +39,9 @@ def grid_graph(
     numbers = node_numbers(passable)
     starts, ends, costs = [], [], []
     for offset, between in links.items():
-        here, there, *crossed = (_window(passable.shape, offset, at) for at in ((0, 0), offset, *between))
+        here, there, *crossed = (
+            _window(passable.shape, offset, at) for at in ((0, 0), offset, *between)
+        )
         open_ = passable[here] & passable[there]
         for window in crossed:
             open_ &= passable[window]

@@ -38,7 +38,7 @@ class PlanStatus:
 
 
 class PlanScheduler:
-    """Takes orders and maps, hands out plans. A planner's failure is a value, never an exception."""
+    """Takes orders and maps, hands out plans; a planner's failure is a value, not an exception."""
 
     def __init__(
         self, plan: MakePlan, delay: float, lockstep: bool, patience: float = PATIENCE
@@ -82,7 +82,7 @@ class PlanScheduler:
         self._start()
 
     def ready(self, stamp: int) -> bool:
-        """Whether the maps of all plans that count at a frame have come; not in lockstep: always."""
+        """Whether the maps of all plans that count at a frame have come; only lockstep waits."""
         return not self._lockstep or not any(
             order.future is None and self._counts(order, stamp) for order in self._orders
         )

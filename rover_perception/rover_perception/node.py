@@ -1,8 +1,9 @@
 """The perception node: images and poses to a world map, polar arrays and rocks.
 
 Subscribes camera/image_raw, odom and rover_status (joined by stamp). Publishes nav_polar,
-rock_polar, free_scan and rocks (latched) for every frame; worldmap (latched); navigation_map and vision_image, both only
-while subscribed; /diagnostics. Parameters: see PerceptionConfig.
+rock_polar, free_scan and rocks (latched) for every frame; worldmap
+(latched); navigation_map and vision_image, both only while subscribed; /diagnostics. Parameters:
+see PerceptionConfig.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rover_decision.config import DecisionConfig
+from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_tools.cli.mission import parser
 from rover_tools.evaluation.strategy import ParametersError, Strategy, choices
 

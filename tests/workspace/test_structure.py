@@ -15,7 +15,7 @@ from rclpy.qos import QoSCompatibility, qos_check_compatible
 
 from rover_bridge.config import BridgeConfig
 from rover_common.ros import qos
-from rover_decision.config import DecisionConfig
+from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -12,18 +12,20 @@ import argparse
 import json
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import cv2
 import numpy as np
 
-from rover_decision.config import DecisionConfig
-from rover_decision.mission import Mission
-from rover_decision.types import Decision, Snapshot
-from rover_navigation.plan_scheduler import MakeRequest
-from rover_navigation.planner import Planner
+from rover_decision.core import DecisionCore, Mission
+from rover_decision.missions.sample_return import make_planner
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.mission import SampleReturnMission
+from rover_decision.types import Decision, Frame
+from rover_navigation.plan_scheduler import MakePlan
 from rover_navigation.types import Plan, PlanRequest
 from rover_simulator.main import fps_option, frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
@@ -47,15 +49,13 @@ class Stopwatch:
         self.laps: list[tuple[float, float]] = []  # [s] wall, thread
 
     @contextmanager
-    def lap(self, goes_on: bool = False) -> Iterator[None]:
-        """Time what is done inside; `goes_on`: as a part of the lap before."""
-        wall, thread = self.laps.pop() if goes_on else (0.0, 0.0)
-        wall_start, thread_start = time.perf_counter(), time.thread_time()
+    def lap(self) -> Iterator[None]:
+        """Time what is done inside."""
+        wall, thread = time.perf_counter(), time.thread_time()
         try:
             yield
         finally:
-            thread += time.thread_time() - thread_start
-            self.laps.append((wall + time.perf_counter() - wall_start, thread))
+            self.laps.append((time.perf_counter() - wall, time.thread_time() - thread))
 
     def result(self, name: str) -> Result:
         """Percentiles [ms]."""
@@ -76,36 +76,34 @@ class Costs:
         self.planned.set()
 
 
-class TimedMission(Mission):
-    """A mission with its frames timed: a frame's request for a plan is a part of it."""
+def timed_core(config: DecisionConfig, costs: Costs) -> DecisionCore:
+    """A core with its frames and its plans timed; a frame's order of a plan is a part of it."""
+    make_plan = make_planner(config).plan
 
-    def __init__(self, config: DecisionConfig, costs: Costs) -> None:
-        super().__init__(config)
-        self._costs = costs
-
-    def tick(self, snapshot: Snapshot) -> Decision:
-        with self._costs.frames.lap():
-            return super().tick(snapshot)
-
-    def plan_request(self, snapshot: Snapshot) -> MakeRequest:
-        self._costs.planned.clear()
-        with self._costs.frames.lap(goes_on=True):
-            return super().plan_request(snapshot)
-
-
-class TimedPlanner(Planner):
-    """A planner with its plans timed, in the thread that makes them."""
-
-    def __init__(self, explorer: str, costs: Costs) -> None:
-        super().__init__(explorer)
-        self._costs = costs
-
-    def plan(self, request: PlanRequest) -> Plan:
+    def timed_plan(request: PlanRequest) -> Plan:
         try:
-            with self._costs.plans.lap():
-                return super().plan(request)
+            with costs.plans.lap():
+                return make_plan(request)
         finally:
-            self._costs.planned.set()
+            costs.planned.set()
+
+    return TimedCore(partial(SampleReturnMission, config), timed_plan, config.plan_delay, costs)
+
+
+class TimedCore(DecisionCore):
+    """Measures its steps; in lockstep."""
+
+    def __init__(
+        self, make_mission: Callable[[], Mission], make_plan: MakePlan, delay: float, costs: Costs
+    ) -> None:
+        super().__init__(make_mission, make_plan, delay, lockstep=True)
+        self._costs = costs
+
+    def step(self, frame: Frame) -> Decision:
+        if frame.map_stamp == frame.stamp:
+            self._costs.planned.clear()
+        with self._costs.frames.lap():
+            return super().step(frame)
 
 
 def main(arguments: list[str]) -> int:
@@ -155,12 +153,7 @@ def _fly(seed: int, options: argparse.Namespace, costs: Costs) -> Result:
     simulation = Simulation(world, seed, frame_steps_of(options.fps))
     config = options.strategy.config()
     frames, plans = len(costs.frames.laps), len(costs.plans.laps)
-    loop = Loop(
-        simulation,
-        config,
-        mission=TimedMission(config, costs),
-        planner=TimedPlanner(config.explorer, costs),
-    )
+    loop = Loop(simulation, core=timed_core(config, costs))
     try:
         end = loop.run(START_TIME + options.time_limit, lambda _: costs.planned.wait())
     finally:

@@ -16,13 +16,21 @@ from numpy.typing import NDArray
 from rover_bridge.codec import decode_telemetry, encode_drive
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
-from rover_common.types import CameraFrame, FreeScan, GridMap, RockTrack, Telemetry, VehicleState
-from rover_decision.config import DecisionConfig
-from rover_decision.mission import Mission
-from rover_decision.states import State
-from rover_decision.types import Decision, Snapshot
-from rover_navigation.plan_scheduler import PlanDesk
-from rover_navigation.planner import Planner
+from rover_common.types import (
+    FIRST_RUN,
+    CameraFrame,
+    FreeScan,
+    GridMap,
+    RockTrack,
+    Run,
+    Telemetry,
+    VehicleState,
+)
+from rover_decision.core import DecisionCore
+from rover_decision.missions.sample_return import make_core
+from rover_decision.missions.sample_return.chart import State
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.types import Decision, Frame
 from rover_perception.camera.ground_projection import View
 from rover_perception.camera.segmentation import ABOVE_HORIZON, NEAREST_ROWS
 from rover_perception.config import PerceptionConfig
@@ -53,22 +61,19 @@ class Loop:
         decision: DecisionConfig | None = None,
         perception: PerceptionConfig | None = None,
         *,
-        mission: Mission | None = None,
-        planner: Planner | None = None,
+        core: DecisionCore | None = None,
     ) -> None:
-        """`mission` and `planner` take the place of those that `decision` describes."""
-        config = decision or DecisionConfig()
+        """`core` takes the place of the one that `decision` describes."""
         self.simulation = simulation
         simulation.crop_pictures(first_row_read)
         self.perception = Perception(perception or PerceptionConfig())
-        self.mission = mission or Mission(config)
-        planner = planner or Planner(config.explorer)
-        self._desk = PlanDesk(planner.plan, config.plan_delay, lockstep=True)
+        self.core = core or make_core(decision or DecisionConfig(), lockstep=True)
+        self._run = FIRST_RUN
         self._stamp = -1
         self._rocks: tuple[RockTrack, ...] = ()
 
     def close(self) -> None:
-        self._desk.close()
+        self.core.close()
 
     def run(
         self, time_limit: float, watch: Callable[[Decision], object] | None = None
@@ -99,19 +104,21 @@ class Loop:
         assert telemetry.sim_time is not None
         self._stamp = max(self._stamp + 1, round(telemetry.sim_time * 1e9))
         stamp, pose = self._stamp, _through_message(telemetry.pose)
-        percept = self.perception.process(CameraFrame(stamp, pose, telemetry.image))
-        self._rocks = percept.rocks
-        snapshot = Snapshot(
-            vehicle=_vehicle_of(stamp, pose, telemetry),
-            nav=percept.nav,
-            scan=_scan_through_message(percept.scan),
-            rocks=percept.rocks,
-            plan=self._desk.plan_at(stamp),
+        seen = self.perception.process(CameraFrame(stamp, pose, telemetry.image, self._run))
+        self._rocks = seen.rocks
+        decision = self.core.step(
+            Frame(
+                vehicle=self._vehicle_of(stamp, pose, telemetry),
+                nav=seen.nav,
+                scan=_scan_through_message(seen.scan),
+                rocks=seen.rocks,
+                map_stamp=seen.map_stamp,
+            )
         )
-        decision = self.mission.tick(snapshot)
-        if percept.map_stamp == stamp:
-            self._desk.ask(stamp, self.mission.plan_request(snapshot))
-            self._desk.give_map(stamp, self.perception.navigation_map())
+        if seen.map_stamp == stamp:
+            self.core.give_map(stamp, self.perception.navigation_map())
+        if decision.command.new_run:
+            self._run = Run(self._run.number + 1, stamp + 1)
         return decision
 
     def answer(self, decision: Decision) -> None:
@@ -120,6 +127,17 @@ class Loop:
             self.simulation.handle("pickup", {})
         else:
             self.simulation.handle("data", encode_drive(decision.command))
+
+    def _vehicle_of(self, stamp: int, pose: Pose, telemetry: Telemetry) -> VehicleState:
+        return VehicleState(
+            stamp,
+            pose,
+            telemetry.speed,
+            telemetry.near_sample,
+            telemetry.picking_up,
+            telemetry.sample_count,
+            self._run,
+        )
 
     def _position(self) -> tuple[float, float]:
         return self.simulation.pose.x, self.simulation.pose.y
@@ -138,17 +156,6 @@ def _through_message(pose: Pose) -> Pose:
     """As it comes out of an Odometry message, whose rotation is a quaternion."""
     roll, pitch, yaw = angles_from_quaternion(*quaternion_from_pose(pose))
     return Pose(pose.x, pose.y, yaw, pitch, roll)
-
-
-def _vehicle_of(stamp: int, pose: Pose, telemetry: Telemetry) -> VehicleState:
-    return VehicleState(
-        stamp,
-        pose,
-        telemetry.speed,
-        telemetry.near_sample,
-        telemetry.picking_up,
-        telemetry.sample_count,
-    )
 
 
 def _scan_through_message(scan: FreeScan) -> FreeScan:

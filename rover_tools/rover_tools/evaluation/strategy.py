@@ -8,7 +8,7 @@ from pathlib import Path
 
 import yaml
 
-from rover_decision.config import DecisionConfig
+from rover_decision.missions.sample_return.config import DecisionConfig
 
 DEFAULTS = DecisionConfig()
 SYNTAX = "EXPLORER or EXPLORER+WAY_HOME, as in tour or frontier+bearing"

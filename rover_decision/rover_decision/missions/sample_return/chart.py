@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
 from enum import Enum, IntEnum
 
 from statemachine import HistoryState, StateChart
@@ -55,12 +57,12 @@ class Event(Enum):
 class MissionChart(StateChart):
     """Which event leads where; an event that a state does not know changes nothing.
 
-    The mission explores, then heads home. What interrupts it (a pickup, a recovery, a pause) returns
-    to the phase that it interrupted.
+    The mission explores, then heads home. What interrupts it, a pickup, a recovery or a pause,
+    returns to the phase that it interrupted.
     """
 
-    class driving(ChartState.Compound):  # noqa: N801
-        class exploring(ChartState.Compound):  # noqa: N801
+    class driving(ChartState.Compound):
+        class exploring(ChartState.Compound):
             forward = ChartState(initial=True, value=State.FORWARD)
             stop = ChartState(value=State.STOP)
             rock_approach = ChartState(value=State.ROCK_APPROACH)
@@ -73,7 +75,7 @@ class MissionChart(StateChart):
             circling = forward.to(circle)
             recovered = circle.to(forward)
 
-        class heading_home(ChartState.Compound):  # noqa: N801
+        class heading_home(ChartState.Compound):
             return_home = ChartState(initial=True, value=State.RETURN_HOME)
 
         phase = HistoryState()
@@ -116,9 +118,11 @@ class Machine:
     @property
     def heading_home(self) -> bool:
         """Whether the rover heads home, or will when what interrupted that is over."""
-        if self._chart.driving.is_active:
-            return bool(self._chart.heading_home.is_active)
-        return self._chart.heading_home in self._chart.history_values.get("phase", ())
+        active = {state.id for state in self._chart.configuration}
+        if "driving" in active:
+            return "heading_home" in active
+        last = self._chart.history_values.get("phase", ())
+        return any(state.id == "heading_home" for state in last)
 
     def handle(self, event: Event) -> bool:
         """Whether the event led to another state."""
@@ -126,3 +130,38 @@ class Machine:
         self._chart.send(event.name)
         (self.state,) = (s.value for s in self._chart.configuration if isinstance(s.value, State))
         return self.state is not before
+
+
+@dataclass(frozen=True)
+class Transition:
+    """One arrow of the chart, between states that the rover can be in."""
+
+    event: Event
+    source: State
+    target: State
+
+
+def transitions() -> set[Transition]:
+    """All arrows, those of the groups and of the history taken apart."""
+    found = set()
+    for source in _leaves(MissionChart.states):
+        for group in (source, *source.ancestors()):
+            for transition in group.transitions:
+                for event in transition.events:
+                    for target in _entered(transition.target):
+                        found.add(Transition(Event[event.id], source.value, target.value))
+    return found
+
+
+def _leaves(states: Iterable[ChartState]) -> list[ChartState]:
+    return [leaf for state in states for leaf in (_leaves(state.states) or [state])]
+
+
+def _entered(state: ChartState) -> list[ChartState]:
+    """The states that a transition to this one may lead to."""
+    if state.is_history:
+        phases = state.parent.states if state.parent else []
+        return [leaf for phase in phases for leaf in _entered(phase)]
+    if not state.states:
+        return [state]
+    return [leaf for child in state.states if child.initial for leaf in _entered(child)]

@@ -61,9 +61,7 @@ class Completion:
     def _retry(self, time: float) -> None:
         """Unblock, and take goals for unobserved: all of them while samples are missing."""
         unblocked = self._blocked.unblock()
-        if self._samples.all_collected:
-            reopened = self._goals.retry(time)
-        else:
-            reopened = self._goals.forget()
+        done = self._samples.all_collected
+        reopened = self._goals.retry(time) if done else self._goals.forget()
         if unblocked or reopened:
             self._goals.await_plans()

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Protocol
 
+from rover_common.geometry import bearing_to
 from rover_common.types import Command, PolarArray
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.tick import TickContext
@@ -18,13 +19,13 @@ from rover_decision.types import Action
 from rover_navigation.actuation import Actuation, approach_speed
 from rover_navigation.local_clearance import LocalClearance
 from rover_navigation.path_tracking import STOP_MARGIN, PathTracker, at_end, path_bearing
-from rover_navigation.selection import NearestStop, WholeTour
+from rover_navigation.scale import Scale
+from rover_navigation.selection import NearestStop, Selection, WholeTour
 from rover_navigation.types import GoalKind
-from rover_common.geometry import bearing_to
 
 PATH_AHEAD = math.radians(12.0)  # a path this near to straight ahead can be driven into
 SHARP = math.radians(40.0)  # a path further aside is turned to in place, which takes no way ahead
-CLEARANCE_TO_GO = 1.2  # of the clearance below which it stops, so that it does not stop at once again
+CLEARANCE_TO_GO = 1.2  # of the clearance below which it stops: not to stop again at once
 LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
 SPEED_MIN = 0.3  # [m/s] of driving by sight
 ALIGN_SECONDS, LOOK_SECONDS = 0.5, 1.0  # [s] in STOP, at least
@@ -190,7 +191,7 @@ class WallFollower:
 
 
 WALL_RULES = {"wall_follow_a": wall_follow_a, "wall_follow_b": wall_follow_b}
-SELECTIONS = {"tour": WholeTour, "frontier": NearestStop}
+SELECTIONS: dict[str, Callable[[Scale], Selection]] = {"tour": WholeTour, "frontier": NearestStop}
 
 
 def make_explorer(config: DecisionConfig, tracker: PathTracker, sight: SightDriver) -> Explorer:

@@ -1,6 +1,6 @@
 """The mission: what happened, what state follows from it, and what to do; one tick per frame.
 
-    monitors -> the state's event -> the chart -> the state's action
+monitors -> the state's event -> the chart -> the state's action
 """
 
 from __future__ import annotations

@@ -40,9 +40,7 @@ def make_states(config: DecisionConfig, parts: Parts) -> dict[State, StateBehavi
         State.FORWARD: Forward(*exploring),
         State.STOP: Stop(*exploring),
         State.CIRCLE: Circle(*exploring, sight),
-        State.ROCK_APPROACH: RockApproach(
-            limits, parts.completion, actuation, config.rock_range
-        ),
+        State.ROCK_APPROACH: RockApproach(limits, parts.completion, actuation, config.rock_range),
         State.PICKUP: Pickup(actuation.vehicle.standing_speed),
         State.STUCK: Stuck(
             RecoverySequence(actuation), parts.blocked, parts.goals, parts.home_paths
