@@ -1,4 +1,4 @@
-"""What can be wrong with a telemetry; each defect is a type, and its name is its counter."""
+"""Defects of a telemetry: each is a type, with its counter in /diagnostics."""
 
 from __future__ import annotations
 
