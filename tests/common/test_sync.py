@@ -14,6 +14,7 @@ def test_a_set_is_complete_with_a_message_of_every_source():
     assert sync.add("a", 1, "A") is None
     assert sync.add("b", 2, "other") is None
     assert sync.add("b", 1, "B") == {"a": "A", "b": "B"}
+    assert sync.add("b", 1, "B") is None  # it was given already
 
 
 def test_a_source_that_was_not_named_is_refused():
