@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterable
 from dataclasses import fields
 from enum import IntEnum
@@ -15,12 +16,13 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from readme_tables import ROOT, column, table
 
-from rover_bridge import errors
+from rover_bridge import errors, pending_requests, run_tracker
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.node import BridgeNode
 from rover_common import topics
 from rover_common.ros import qos
+from rover_common.vehicle import ROVER
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
 
@@ -182,3 +184,14 @@ def test_the_members_are_those_of_the_interface_file(path: Path):
     members = members_of(path)
     assert rows == [(m.section, m.name, m.type, m.comment) for m in members]
     assert all(m.comment for m in members if m.name != "reason"), "a member has no comment"
+
+
+def test_the_protocols_document_names_every_defect_and_the_thresholds_of_a_run():
+    text = (ROOT / "docs" / "protocol.md").read_text()
+    assert set(re.findall(r"`(telemetry_\w+)`", text)) == {
+        kind.counter for kind in errors.TelemetryError.__subclasses__()
+    }
+    assert f"by more than {run_tracker.CLOCK_FELL_BACK:g} s" in text
+    assert f"by more than {run_tracker.POSE_JUMPED:g} m" in text
+    assert f"a speed of at most {ROVER.pickup_speed:g} m/s" in text
+    assert f"owed a telemetry for {pending_requests.SILENCE:g} s" in text
