@@ -1,12 +1,14 @@
-"""What can be wrong with a telemetry; each defect is a type, and its name is its counter."""
+"""Defects of a telemetry: each is a type, with its counter in /diagnostics."""
 
 from __future__ import annotations
+
+from typing import ClassVar
 
 
 class TelemetryError(ValueError):
     """A telemetry that cannot be used."""
 
-    counter = "telemetry_invalid"
+    counter: ClassVar[str]  # in /diagnostics
 
 
 class NotAnObjectError(TelemetryError):
@@ -34,7 +36,7 @@ class NotFiniteError(TelemetryError):
 
 
 class OutOfRangeError(TelemetryError):
-    """A value is beyond what the simulator can mean."""
+    """A value is outside of the range that the simulator can send."""
 
     counter = "telemetry_out_of_range"
 
@@ -52,6 +54,6 @@ class JpegError(TelemetryError):
 
 
 class ImageSizeError(TelemetryError):
-    """The image has not the camera's size."""
+    """The image does not have the camera's size."""
 
     counter = "telemetry_image_size"

@@ -1,8 +1,8 @@
-"""One Socket.IO server for all generations of clients.
+"""One Socket.IO server for clients of Engine.IO 4 and of the legacy Engine.IO 3.
 
-Engine.IO 4 servers ping their clients, and wait for a Socket.IO connect packet. The Unity simulator
-pings the server, and sends its events without ever connecting to a namespace; other clients of its
-generation wait to be connected.
+An Engine.IO 4 server pings its clients, and waits for a Socket.IO connect packet. The Unity
+simulator speaks Engine.IO 3: it pings the server, and sends its events without ever connecting to a
+namespace. Other legacy clients wait until the server connects them.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ import engineio
 import socketio
 from engineio import packet
 
-from rover_bridge.websocket_driver import FastWebSocketWSGI
+from rover_bridge.fast_websocket import FastWebSocketWSGI
 
 SOCKETIO_CONNECT = "0"  # connect to the default namespace
-WAITS_FOR_CONNECT = "rover_bridge.waits_for_connect"  # in the environ of a client that said EIO=3
+EXPECTS_CONNECT = "rover_bridge.expects_connect"  # in the environ of a client that said EIO=3
 
 WsgiApp = Callable[[dict[str, Any], Callable[..., Any]], Iterable[bytes]]
 
 
-class BilingualEngineServer(engineio.Server):
-    """An Engine.IO server whose sockets understand all generations."""
+class DualProtocolEngineServer(engineio.Server):
+    """An Engine.IO server whose sockets understand both protocols."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -33,15 +33,15 @@ class BilingualEngineServer(engineio.Server):
         if event != "connect":
             return super()._trigger_event(event, *args, **kwargs)
         sid, environ = args
-        receiver = BilingualReceiver(self.sockets[sid])
+        receiver = DualProtocolReceiver(self.sockets[sid])
         self.sockets[sid].receive = receiver
         result = super()._trigger_event(event, *args, **kwargs)
-        if environ.get(WAITS_FOR_CONNECT):
+        if environ.get(EXPECTS_CONNECT):
             receiver.connect()
         return result
 
 
-class BilingualReceiver:
+class DualProtocolReceiver:
     """Receives the packets of one socket."""
 
     def __init__(self, socket: Any) -> None:
@@ -56,7 +56,7 @@ class BilingualReceiver:
 
     def __call__(self, received: packet.Packet) -> None:
         if received.packet_type == packet.PING:
-            self._receive(packet.Packet(packet.PONG))  # who pings is alive
+            self._receive(packet.Packet(packet.PONG))  # the library's proof that a client is alive
             self._socket.send(packet.Packet(packet.PONG, received.data))
             return
         if received.packet_type == packet.MESSAGE and not self._connected:
@@ -66,21 +66,21 @@ class BilingualReceiver:
         self._receive(received)
 
 
-class BilingualServer(socketio.Server):
+class DualProtocolServer(socketio.Server):
     """A Socket.IO server over it."""
 
     def _engineio_server_class(self) -> type[engineio.Server]:
-        return BilingualEngineServer
+        return DualProtocolEngineServer
 
 
-def accept_older_queries(app: WsgiApp) -> WsgiApp:
-    """Let WebSocket clients in that say EIO=3: the framing of their WebSocket is the same."""
+def accept_legacy_queries(app: WsgiApp) -> WsgiApp:
+    """Accept WebSocket clients that say EIO=3: the framing of their WebSocket is the same."""
 
     def accepting(environ: dict[str, Any], start_response: Callable[..., Any]) -> Iterable[bytes]:
         query = environ.get("QUERY_STRING", "")
         if "transport=websocket" in query and "EIO=3" in query:
             environ["QUERY_STRING"] = query.replace("EIO=3", "EIO=4")
-            environ[WAITS_FOR_CONNECT] = True
+            environ[EXPECTS_CONNECT] = True
         return app(environ, start_response)
 
     return accepting

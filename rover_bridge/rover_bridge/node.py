@@ -1,8 +1,8 @@
 """The bridge node: a simulator's telemetry to topics, decisions back to the simulator.
 
-Publishes camera/image_raw, camera/camera_info, odom, rover_status, bridge_state (latched: who
-drives), /tf, /tf_static, /clock (when the telemetry carries sim_time) and /diagnostics.
-Subscribes cmd_drive. Parameters: see BridgeConfig.
+Publishes camera/image_raw, camera/camera_info, odom, rover_status, bridge_state (latched), /tf,
+/tf_static (latched), /clock (when the telemetry carries sim_time) and /diagnostics. Subscribes
+cmd_drive. Parameters: BridgeConfig. Counters: counters.Counter and errors.
 """
 
 from __future__ import annotations
@@ -25,12 +25,13 @@ from tf2_msgs.msg import TFMessage
 from rover_bridge import conversions
 from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comma
 from rover_bridge.config import BridgeConfig
+from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
-from rover_bridge.pending_requests import Answer, Exchange, Ticket
+from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
 from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import (
     Connected,
-    ProtocolTrouble,
+    ProtocolError,
     ServerEvent,
     SocketServer,
     TelemetryReceived,
@@ -43,8 +44,8 @@ from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.types import SAFE_COMMAND, Run, Telemetry
 
-LOG_PERIOD = 5.0  # [s] between two lines about the same kind of trouble
-DEADLINE_LOOKS = 4  # looks for late answers per deadline
+LOG_PERIOD = 5.0  # [s] between two lines about the same counter
+CHECKS_PER_DEADLINE = 4
 
 
 class BridgeNode(Node):
@@ -53,23 +54,23 @@ class BridgeNode(Node):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("bridge_node", **kwargs)
         config = declare_parameters(self, BridgeConfig)
-        self._exchange = Exchange(config.answer_deadline)
+        self._requests = PendingRequests(config.answer_deadline)
         self._runs = RunTracker()
         self._comma_clients: set[str] = set()
-        self._warned: dict[str, float] = {}  # [s] wall time of the last line of each kind
+        self._warned: dict[str, float] = {}  # [s] wall time of the last line per counter
         self._make_endpoints()
         self._inbox: deque[ServerEvent] = deque()
         self._arrival = self.create_guard_condition(self._on_arrivals)
         # Wall time: a deadline that waited for simulated time would never come.
         self._deadline_timer = self.create_timer(
-            config.answer_deadline / DEADLINE_LOOKS,
-            self._on_deadline_look,
+            config.answer_deadline / CHECKS_PER_DEADLINE,
+            self._check_deadlines,
             clock=Clock(clock_type=ClockType.STEADY_TIME),
         )
         self._server = SocketServer(config.host, config.port, self._on_server_event)
         self.port = self._server.port
         self.get_logger().info(f"listening on {config.host}:{self.port}")
-        self._publish_driver()
+        self._publish_state()
 
     def destroy_node(self) -> None:
         """Close the connections, end the server's thread, then the node."""
@@ -111,47 +112,42 @@ class BridgeNode(Node):
             if isinstance(event, TelemetryReceived):
                 self._on_telemetry(event)
             elif isinstance(event, Connected):
-                self._diagnostics.counts["connections"] += 1
+                self._diagnostics.counts[Counter.CONNECTIONS] += 1
                 self.get_logger().info(f"client {event.client} connected")
-            elif isinstance(event, ProtocolTrouble):
-                self._diagnostics.counts["protocol_troubles"] += 1
-                self._warn("protocol_troubles", f"garbage from a client: {event.text}")
+            elif isinstance(event, ProtocolError):
+                self._diagnostics.counts[Counter.PROTOCOL_ERRORS] += 1
+                self._warn(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
             else:
                 self.get_logger().info(f"client {event.client} disconnected")
-                self._exchange.leave(event.client)
+                self._requests.remove_client(event.client)
                 self._comma_clients.discard(event.client)
-                self._publish_driver()
+                self._publish_state()
 
     def _on_telemetry(self, event: TelemetryReceived) -> None:
         if uses_decimal_comma(event.wire):
             self._comma_clients.add(event.client)
-        client, driver = event.client, self._exchange.driver
-        if not self._exchange.admit(client, time.monotonic()):
-            self._warn(
-                "second_client", "another client drives: this one is answered with the brake"
-            )
-            self._send(Answer(client, SAFE_COMMAND, "second_client"))
+        client, active_before = event.client, self._requests.active_client
+        if not self._requests.accept(client, time.monotonic()):
+            self._refuse(client, Counter.SECOND_CLIENT, "another client is active: braking")
             return
-        if self._exchange.driver != driver:
-            self.get_logger().info(f"client {client} drives")
-            self._publish_driver()
-        if self._exchange.full:
-            self._warn("overloaded", "too many telemetries at once: answering with the brake")
-            self._send(Answer(client, SAFE_COMMAND, "overloaded"))
+        if self._requests.active_client != active_before:
+            self.get_logger().info(f"client {client} is active")
+            self._publish_state()
+        if self._requests.full:
+            self._refuse(client, Counter.OVERLOADED, "too many requests are pending: braking")
             return
         try:
             telemetry = decode_telemetry(event.wire)
         except TelemetryError as error:
-            self._warn(error.counter, f"telemetry dropped: {error}")
-            self._send(Answer(client, SAFE_COMMAND, error.counter))
+            self._refuse(client, error.counter, f"telemetry dropped: {error}")
             return
-        self._diagnostics.counts["telemetries"] += 1
+        self._diagnostics.counts[Counter.TELEMETRIES] += 1
         run, stamp = self._runs.track(telemetry, self._time_of(telemetry))
         if run.start == stamp:
-            self._diagnostics.counts["runs"] = run.number
+            self._diagnostics.counts[Counter.RUNS] = run.number
             self.get_logger().info(f"run {run.number} begins")
-        self._exchange.open(
-            Ticket(
+        self._requests.add(
+            PendingRequest(
                 client=client,
                 stamp=stamp,
                 arrived=time.monotonic(),
@@ -163,7 +159,7 @@ class BridgeNode(Node):
         self._publish(stamp, run, telemetry)
 
     def _publish(self, stamp: int, run: Run, telemetry: Telemetry) -> None:
-        """First what the decision waits for, the largest message first of all."""
+        """What the other nodes wait for comes first."""
         image = image_message_of(stamp, frames.CAMERA_OPTICAL, telemetry.image)
         self._odometry.publish(odometry_of(stamp, telemetry.pose, telemetry.speed))
         self._image.publish(image)
@@ -177,43 +173,48 @@ class BridgeNode(Node):
         stamp, command = command_of(message)
         if command.new_run:
             self._runs.request(message.run)
-        answer = self._exchange.answer(stamp, command)
+        answer = self._requests.answer(stamp, command)
         if answer is None:
-            self._diagnostics.counts["commands_late"] += 1
+            self._diagnostics.counts[Counter.COMMANDS_LATE] += 1
             return
-        if answer.why == "pickup_refused":
-            self._warn(answer.why, "pickup refused: no sample in reach, or not standing still")
+        if answer.counter == Counter.PICKUP_REFUSED:
+            self._warn(answer.counter, "pickup refused: no sample in reach, or not standing still")
         self._send(answer)
 
-    def _on_deadline_look(self) -> None:
-        for answer in self._exchange.expire(time.monotonic()):
-            self._warn(answer.why, "no decision in time: braking")
+    def _check_deadlines(self) -> None:
+        for answer in self._requests.expire(time.monotonic()):
+            self._warn(answer.counter, "no decision in time: braking")
             self._send(answer)
 
+    def _refuse(self, client: str, counter: str, text: str) -> None:
+        """Answer a telemetry that is not published with the safe brake."""
+        self._warn(counter, text)
+        self._send(Answer(client, SAFE_COMMAND, counter))
+
     def _send(self, answer: Answer) -> None:
-        self._diagnostics.counts[answer.why] += 1
+        self._diagnostics.counts[answer.counter] += 1
         if answer.command.pickup:
             self._server.send(answer.client, "pickup", {})
         else:
             drive = encode_drive(answer.command, answer.client in self._comma_clients)
             self._server.send(answer.client, "data", drive)
 
-    def _publish_driver(self) -> None:
-        driver = self._exchange.driver
-        self._state.publish(String(data="disconnected" if driver is None else "connected"))
+    def _publish_state(self) -> None:
+        active = self._requests.active_client
+        self._state.publish(String(data="disconnected" if active is None else "connected"))
 
     def _time_of(self, telemetry: Telemetry) -> float:
-        """[s] of the simulator's clock, of the node's where the simulator tells none."""
+        """[s] of the simulator's clock, of the node's where the telemetry has no sim_time."""
         return self._now() / NANOSECONDS if telemetry.sim_time is None else telemetry.sim_time
 
     def _now(self) -> int:
         return int(self.get_clock().now().nanoseconds)
 
-    def _warn(self, kind: str, text: str) -> None:
-        """Log a line, unless one of its kind was logged just now."""
+    def _warn(self, counter: str, text: str) -> None:
+        """Log a line, unless one about this counter was logged within LOG_PERIOD."""
         now = time.monotonic()
-        if now - self._warned.get(kind, -LOG_PERIOD) >= LOG_PERIOD:
-            self._warned[kind] = now
+        if now - self._warned.get(counter, -LOG_PERIOD) >= LOG_PERIOD:
+            self._warned[counter] = now
             self.get_logger().warning(text)
 
 

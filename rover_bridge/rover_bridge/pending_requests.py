@@ -1,23 +1,27 @@
-"""Who is owed an answer: every telemetry gets exactly one, decided on it, or safe."""
+"""The telemetries of the active client that wait for their answer: each gets exactly one.
+
+A telemetry is a request of the simulator, a drive command or a pickup the response to it.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rover_bridge.counters import Counter
 from rover_common.types import SAFE_COMMAND, Command
 from rover_common.vehicle import ROVER
 
-# Telemetries that may pass before a pickup that was sent must show: the exchanges in flight, twice.
+# Telemetries that may pass before a pickup that was sent must show: twice the pending requests.
 PICKUP_TELEMETRIES = 6
-# A simulator has two or three exchanges in flight; one that floods is answered without a look.
-MAX_OPEN = 8
-# A driver that owes a telemetry for this long is gone: reloading the simulator's scene leaves its
-# socket open, and the reloaded simulator comes back on another one.
+# A simulator has two or three requests pending; more are answered with the brake at once.
+MAX_PENDING = 8
+# An active client that owes a telemetry for this long is gone: reloading the simulator's scene
+# leaves its socket open, and the reloaded simulator connects on another one.
 SILENCE = 2.0  # [s] of wall time
 
 
 @dataclass(frozen=True)
-class Ticket:
+class PendingRequest:
     """One telemetry that waits for its answer."""
 
     client: str
@@ -27,106 +31,110 @@ class Ticket:
     near_sample: bool
     picking_up: bool
 
+    @property
+    def allows_pickup(self) -> bool:
+        """Whether a sample is in reach, and the rover stands."""
+        return self.near_sample and abs(self.speed) <= ROVER.pickup_speed
+
 
 @dataclass(frozen=True)
 class Answer:
-    """What to send to whom."""
+    """What to send to which client."""
 
     client: str
     command: Command
-    why: str  # the counter that it goes under
+    counter: str  # in which it is counted
 
 
-class Exchange:
-    """The open telemetries of the driving client."""
+class PendingRequests:
+    """The pending requests of the active client."""
 
     def __init__(self, deadline: float) -> None:
         """deadline: [s] of wall time after which a telemetry is answered with the safe brake."""
         self._deadline = deadline
-        self._open: dict[int, Ticket] = {}
-        self._arm = _Arm()
-        self._heard = 0.0  # [s] wall time of the driver's latest telemetry
-        self.driver: str | None = None
+        self._pending: dict[int, PendingRequest] = {}
+        self._pickup = _PickupState()
+        self._last_received = 0.0  # [s] wall time of the active client's latest telemetry
+        self.active_client: str | None = None
 
     @property
     def full(self) -> bool:
-        """Whether more are open than any simulator has in flight."""
-        return len(self._open) >= MAX_OPEN
+        """Whether more are pending than any simulator sends."""
+        return len(self._pending) >= MAX_PENDING
 
-    def admit(self, client: str, now: float) -> bool:
-        """Whether this client, heard at `now` [s] of wall time, drives.
+    def accept(self, client: str, now: float) -> bool:
+        """Whether this client, heard at `now` [s] of wall time, is the active client.
 
-        The first one does, until it leaves, or owes a telemetry while another one sends.
+        The first client is, until it leaves, or owes a telemetry while another one sends.
         """
-        silent = not self._open and now - self._heard >= SILENCE
-        if self.driver is None or (client != self.driver and silent):
-            self.driver = client
-            self._arm = _Arm()
-        if client == self.driver:
-            self._heard = now
-        return client == self.driver
+        silent = not self._pending and now - self._last_received >= SILENCE
+        if self.active_client is None or (client != self.active_client and silent):
+            self.active_client = client
+            self._pickup = _PickupState()
+        if client == self.active_client:
+            self._last_received = now
+        return client == self.active_client
 
-    def open(self, ticket: Ticket) -> None:
-        self._arm.see(ticket)
-        self._open[ticket.stamp] = ticket
+    def add(self, request: PendingRequest) -> None:
+        """A telemetry of the active client was published."""
+        self._pickup.update(request)
+        self._pending[request.stamp] = request
 
     def answer(self, stamp: int, command: Command) -> Answer | None:
-        """The answer to the telemetry of this stamp; None when it had one already."""
-        ticket = self._open.pop(stamp, None)
-        if ticket is None:
+        """The answer to the telemetry of this stamp [ns]; None when it had one already."""
+        request = self._pending.pop(stamp, None)
+        if request is None:
             return None
         if not command.pickup:
-            return Answer(ticket.client, command, "answered")
-        if ticket.picking_up or self._arm.busy:
-            return Answer(ticket.client, SAFE_COMMAND, "pickup_already_running")
+            return Answer(request.client, command, Counter.ANSWERED)
+        if request.picking_up or self._pickup.running:
+            return Answer(request.client, SAFE_COMMAND, Counter.PICKUP_ALREADY_RUNNING)
         # With no sample in reach the simulator would freeze for good, and a newer telemetry may
-        # have told already that the rover has rolled past it.
-        if not (_can_pick_up(ticket) and self._arm.can_pick_up):
-            return Answer(ticket.client, SAFE_COMMAND, "pickup_refused")
-        self._arm.start()
-        return Answer(ticket.client, command, "pickup_sent")
+        # say that the rover has rolled past it.
+        if not (request.allows_pickup and self._pickup.allowed):
+            return Answer(request.client, SAFE_COMMAND, Counter.PICKUP_REFUSED)
+        self._pickup.start()
+        return Answer(request.client, command, Counter.PICKUP_SENT)
 
     def expire(self, now: float) -> list[Answer]:
         """Safe answers for all telemetries that have waited too long at `now` [s] of wall time."""
-        late = [t for t in self._open.values() if now - t.arrived >= self._deadline]
-        for ticket in late:
-            del self._open[ticket.stamp]
-        return [Answer(ticket.client, SAFE_COMMAND, "deadline_missed") for ticket in late]
+        late = [r for r in self._pending.values() if now - r.arrived >= self._deadline]
+        for request in late:
+            del self._pending[request.stamp]
+        return [Answer(r.client, SAFE_COMMAND, Counter.DEADLINE_MISSED) for r in late]
 
-    def leave(self, client: str) -> None:
-        """A client is gone: nothing is owed to it, and another one may drive."""
-        if client == self.driver:
-            self.driver = None
-            self._open.clear()
-
-
-def _can_pick_up(ticket: Ticket) -> bool:
-    return ticket.near_sample and abs(ticket.speed) <= ROVER.pickup_speed
+    def remove_client(self, client: str) -> None:
+        """A client has disconnected: nothing is owed to it, and another one may become active."""
+        if client == self.active_client:
+            self.active_client = None
+            self._pending.clear()
 
 
-class _Arm:
-    """What the newest telemetry says of the arm, and whether a pickup has yet to show in one."""
+class _PickupState:
+    """Whether a pickup runs, was sent but does not show yet, or may be sent."""
 
     def __init__(self) -> None:
-        self._newest: Ticket | None = None
+        self._newest: PendingRequest | None = None
         self._sent = False
-        self._unseen = 0
+        self._telemetries_since = 0
 
     @property
-    def busy(self) -> bool:
+    def running(self) -> bool:
         """A pickup runs, or one was sent."""
         return self._sent or (self._newest is not None and self._newest.picking_up)
 
     @property
-    def can_pick_up(self) -> bool:
-        return self._newest is not None and _can_pick_up(self._newest)
+    def allowed(self) -> bool:
+        """Whether the newest telemetry allows one."""
+        return self._newest is not None and self._newest.allows_pickup
 
     def start(self) -> None:
-        self._sent, self._unseen = True, 0
+        """A pickup is sent."""
+        self._sent, self._telemetries_since = True, 0
 
-    def see(self, ticket: Ticket) -> None:
-        """A telemetry came in."""
-        self._newest = ticket
-        self._unseen += 1
-        if ticket.picking_up or self._unseen >= PICKUP_TELEMETRIES:
-            self._sent = False  # from now on the telemetry itself tells
+    def update(self, request: PendingRequest) -> None:
+        """A telemetry came in: from the one on that shows the pickup, telemetries tell."""
+        self._newest = request
+        self._telemetries_since += 1
+        if request.picking_up or self._telemetries_since >= PICKUP_TELEMETRIES:
+            self._sent = False

@@ -1,4 +1,4 @@
-"""The Socket.IO server in a thread of its own, on eventlet's hub, never monkey-patched."""
+"""The Socket.IO server: eventlet in a thread of its own, without monkey-patching."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ import eventlet.wsgi
 import socketio
 from eventlet.hubs import trampoline
 
-from rover_bridge.legacy_engineio import BilingualServer, accept_older_queries
+from rover_bridge.legacy_engineio import DualProtocolServer, accept_legacy_queries
 
 MAX_MESSAGE_BYTES = 16 * 2**20  # a telemetry has about 10 kB; the library's default is 1 MB
-PING_TIMEOUT = 60.0  # [s] what the simulator is told, and ignores
-STOP_SECONDS = 5.0  # [s]
+PING_TIMEOUT = 60.0  # [s] sent to the simulator, which ignores it
+STOP_SECONDS = 5.0  # [s] until the thread has ended
 
 
 class PortInUseError(OSError):
@@ -45,17 +45,17 @@ class TelemetryReceived:
 
 
 @dataclass(frozen=True)
-class ProtocolTrouble:
-    """A client sent what no generation of the protocol knows; its connection has ended."""
+class ProtocolError:
+    """A client sent a message that is no packet of either protocol; its connection has ended."""
 
     text: str
 
 
-ServerEvent = Connected | Disconnected | TelemetryReceived | ProtocolTrouble
+ServerEvent = Connected | Disconnected | TelemetryReceived | ProtocolError
 
 
-class _TroubleLog(logging.Handler):
-    """What the libraries log as errors, with tracebacks, becomes an event."""
+class _ErrorLog(logging.Handler):
+    """Makes an event of each error that the libraries log."""
 
     def __init__(self, on_event: Callable[[ServerEvent], None]) -> None:
         super().__init__(logging.ERROR)
@@ -63,7 +63,7 @@ class _TroubleLog(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         cause = f": {record.exc_info[1]!r}" if record.exc_info else ""
-        self._on_event(ProtocolTrouble((record.getMessage() + cause)[:200]))
+        self._on_event(ProtocolError((record.getMessage() + cause)[:200]))
 
 
 class SocketServer:
@@ -118,7 +118,7 @@ class SocketServer:
             ready.set()
             return
         server = self._socketio_server()
-        app = accept_older_queries(socketio.WSGIApp(server))
+        app = accept_legacy_queries(socketio.WSGIApp(server))
         quiet = logging.Logger("wsgi", logging.CRITICAL)
         pool = eventlet.GreenPool(100)
         acceptor = eventlet.spawn(
@@ -133,10 +133,10 @@ class SocketServer:
         with contextlib.suppress(OSError):
             listener.close()
 
-    def _socketio_server(self) -> BilingualServer:
+    def _socketio_server(self) -> DualProtocolServer:
         log = logging.Logger("socketio", logging.ERROR)
-        log.addHandler(_TroubleLog(self._on_event))
-        server = BilingualServer(
+        log.addHandler(_ErrorLog(self._on_event))
+        server = DualProtocolServer(
             logger=log,
             engineio_logger=log,
             async_mode="eventlet",
@@ -155,7 +155,7 @@ class SocketServer:
         wire = arguments[0] if len(arguments) == 1 else arguments
         self._on_event(TelemetryReceived(client, wire))
 
-    def _pump(self, server: BilingualServer) -> None:
+    def _pump(self, server: DualProtocolServer) -> None:
         """Send what other threads put into the outbox, until the server is closed."""
         while True:
             trampoline(self._wake_read, read=True)

@@ -2,6 +2,8 @@
 
 ros2 launch rover_bringup mission.launch.py [params_file:=FILE] [use_sim_time:=true]
     [namespace:=NAME] [log_level:=info] [use_rviz:=true] [host:=127.0.0.1] [port:=4567]
+
+A node that ends is started again after RESPAWN_DELAY; Ctrl-C ends all of them.
 """
 
 from launch import LaunchDescription
@@ -21,6 +23,7 @@ ARGUMENTS = {
     "host": ("127.0.0.1", "address that the bridge listens on"),
     "port": ("4567", "TCP port that the bridge listens on"),
 }
+RESPAWN_DELAY = 1.0  # [s] for the port of a bridge that died to become free
 NODES = {
     "rover_bridge": "bridge_node",
     "rover_perception": "perception_node",
@@ -48,6 +51,8 @@ def generate_launch_description() -> LaunchDescription:
             name=executable,
             namespace=LaunchConfiguration("namespace"),
             output="screen",
+            respawn=True,
+            respawn_delay=RESPAWN_DELAY,
             parameters=[
                 LaunchConfiguration("params_file"),
                 {"use_sim_time": use_sim_time},

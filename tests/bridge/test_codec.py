@@ -1,4 +1,4 @@
-"""Telemetry in every dialect, and with every defect."""
+"""Telemetry in every number format, and with every defect."""
 
 import base64
 import math
@@ -28,10 +28,10 @@ def angle_close(a: float, b: float) -> bool:
     pitch=ANGLES,
     roll=ANGLES,
     speed=st.floats(-5, 5),
-    dialect=st.sampled_from([(";", "."), (";", ","), (",", "."), (",", ",")]),
+    number_format=st.sampled_from([(";", "."), (";", ","), (",", "."), (",", ",")]),
 )
-def test_what_the_simulator_writes_is_read_back(x, y, yaw, pitch, roll, speed, dialect):
-    separator, decimal = dialect
+def test_what_the_simulator_writes_is_read_back(x, y, yaw, pitch, roll, speed, number_format):
+    separator, decimal = number_format
     pose = Pose(x, y, yaw, pitch, roll)
     wire = telemetry(pose=pose, speed=speed, separator=separator, decimal=decimal, sim_time=12.34)
     decoded = decode_telemetry(wire)

@@ -1,4 +1,4 @@
-"""The socket server alone: it leaves nothing behind, and what it sends and receives is whole."""
+"""The socket server alone: it leaves nothing open, and what it sends and receives is whole."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from telemetry import telemetry
 
+from rover_bridge.fast_websocket import apply_mask
 from rover_bridge.server import (
     Connected,
     Disconnected,
     PortInUseError,
-    ProtocolTrouble,
+    ProtocolError,
     ServerEvent,
     SocketServer,
     TelemetryReceived,
 )
-from rover_bridge.websocket_driver import apply_mask
 from rover_simulator.wire.unity_client import ConnectionLostError, UnityClient
 
 Events = Queue[ServerEvent]
@@ -61,7 +61,7 @@ def open_files() -> int:
 
 
 def serve_once() -> None:
-    """A server's whole life: two clients of both generations, and one that never says a word."""
+    """Start and close a server with a client of each protocol, and one that sends nothing."""
     events: Events = Queue()
     server = SocketServer("127.0.0.1", 0, events.put)
     unity = UnityClient("127.0.0.1", server.port)
@@ -110,7 +110,7 @@ def test_a_client_notices_that_the_server_has_closed(events):
     client.close()
 
 
-def test_to_send_to_a_client_that_has_left_is_harmless(server, events):
+def test_sending_to_a_client_that_has_disconnected_is_harmless(server, events):
     client = UnityClient("127.0.0.1", server.port)
     client.connect(timeout=5)
     client.send_telemetry(telemetry())
@@ -127,7 +127,7 @@ def test_to_send_to_a_client_that_has_left_is_harmless(server, events):
 
 
 @pytest.mark.parametrize("transports", [["polling"], ["polling", "websocket"], ["websocket"]])
-def test_modern_clients_by_any_transport(server, events, transports):
+def test_modern_clients_connect_by_any_transport(server, events, transports):
     if "polling" in transports:
         pytest.importorskip("requests", reason="the client's polling transport needs requests")
     with socketio.SimpleClient() as client:
@@ -139,7 +139,7 @@ def test_modern_clients_by_any_transport(server, events, transports):
         assert client.receive(timeout=10) == ["data", {"throttle": "0"}]
 
 
-def test_an_older_client_is_connected_unasked(server, events):
+def test_a_legacy_client_is_connected_unasked(server, events):
     raw = websocket.create_connection(
         url(server.port, "transport=websocket&EIO=3"), suppress_origin=True, timeout=5
     )
@@ -149,7 +149,7 @@ def test_an_older_client_is_connected_unasked(server, events):
     raw.close()
 
 
-def test_a_generation_that_is_not_known_is_refused(server):
+def test_another_version_of_engineio_is_refused(server):
     with pytest.raises(websocket.WebSocketBadStatusException):
         websocket.create_connection(url(server.port, "EIO=2&transport=websocket"), timeout=5)
 
@@ -166,10 +166,10 @@ def test_garbage_is_reported_or_ignored_and_others_are_served(server, events, ca
     assert capfd.readouterr().err == ""
 
 
-def test_what_no_generation_knows_is_reported(server, events):
+def test_a_message_of_neither_protocol_is_reported(server, events):
     raw = websocket.create_connection(url(server.port), timeout=5)
     raw.send("42[")
-    while not isinstance(event := events.get(timeout=10), ProtocolTrouble):
+    while not isinstance(event := events.get(timeout=10), ProtocolError):
         pass
     assert "JSONDecodeError" in event.text
     raw.shutdown()

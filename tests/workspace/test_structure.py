@@ -11,10 +11,8 @@ from pathlib import Path
 
 import pytest
 import yaml
-from rclpy.qos import QoSCompatibility, qos_check_compatible
 
 from rover_bridge.config import BridgeConfig
-from rover_common.ros import qos
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 
@@ -117,12 +115,6 @@ def test_the_yaml_lists_every_parameter_with_its_default(node):
 def above(lines: list[str], index: int) -> str:
     """The nearest line above that begins a node's section."""
     return next(line for line in reversed(lines[:index]) if line.startswith("/**/"))
-
-
-@pytest.mark.parametrize("profile", [qos.FRAME, qos.LATCHED, qos.VIEW, qos.TF, qos.CLOCK])
-def test_each_profile_fits_itself(profile):
-    compatibility, reason = qos_check_compatible(profile, profile)
-    assert compatibility is not QoSCompatibility.ERROR, reason
 
 
 @pytest.mark.parametrize("arguments", [["check"], ["format", "--check"]], ids=["lint", "format"])

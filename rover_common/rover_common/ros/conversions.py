@@ -1,4 +1,7 @@
-"""Messages to dataclasses and back, for what more than one node exchanges."""
+"""Messages to dataclasses and back, for the topics of more than one node.
+
+Stamps are [ns], positions [m] and angles [rad] in the frame of the message's header.
+"""
 
 from __future__ import annotations
 
@@ -41,6 +44,7 @@ def stamp_of(time: Time) -> int:
 
 
 def time_of(stamp: int) -> Time:
+    """The inverse of `stamp_of`."""
     sec, nanosec = divmod(stamp, NANOSECONDS)
     return Time(sec=sec, nanosec=nanosec)
 
@@ -50,12 +54,14 @@ def header_of(stamp: int, frame: str) -> Header:
 
 
 def pose_of(odometry: Odometry) -> Pose:
+    """base_link in the odom frame, which is the map frame."""
     position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     roll, pitch, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
     return Pose(position.x, position.y, yaw, pitch, roll)
 
 
 def odometry_of(stamp: int, pose: Pose, speed: float) -> Odometry:
+    """`speed` [m/s]: along the body, forward positive."""
     message = Odometry(header=header_of(stamp, frames.ODOM), child_frame_id=frames.BASE)
     message.pose.pose.position = Point(x=pose.x, y=pose.y, z=ORIGIN_HEIGHT)
     x, y, z, w = quaternion_from_pose(pose)
@@ -65,10 +71,12 @@ def odometry_of(stamp: int, pose: Pose, speed: float) -> Odometry:
 
 
 def run_of(status: RoverStatus) -> Run:
+    """The run that a telemetry belongs to."""
     return Run(status.run, stamp_of(status.run_start))
 
 
 def vehicle_state_of(odometry: Odometry, status: RoverStatus) -> VehicleState:
+    """Of the two messages of one telemetry."""
     return VehicleState(
         stamp=stamp_of(odometry.header.stamp),
         pose=pose_of(odometry),
@@ -105,12 +113,13 @@ def image_of(message: Image) -> np.ndarray:
 
 
 def camera_frame_of(image: Image, odometry: Odometry, status: RoverStatus) -> CameraFrame:
-    """Raises MessageError."""
+    """Of the three messages of one telemetry; raises MessageError."""
     stamp = stamp_of(image.header.stamp)
     return CameraFrame(stamp, pose_of(odometry), image_of(image), run_of(status))
 
 
 def polar_message_of(stamp: int, run: Run, polar: PolarArray) -> PolarArrayMsg:
+    """In base_link."""
     return PolarArrayMsg(
         header=header_of(stamp, frames.BASE),
         run=run.number,
@@ -120,12 +129,14 @@ def polar_message_of(stamp: int, run: Run, polar: PolarArray) -> PolarArrayMsg:
 
 
 def polar_of(message: PolarArrayMsg) -> PolarArray:
+    """A read-only view of the message's arrays."""
     return PolarArray(
         np.frombuffer(message.ranges, np.float32), np.frombuffer(message.bearings, np.float32)
     )
 
 
 def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
+    """In base_link."""
     return LaserScan(
         header=header_of(stamp, frames.BASE),
         angle_min=scan.angle_min,
@@ -138,6 +149,7 @@ def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
 
 
 def scan_of(message: LaserScan) -> FreeScan:
+    """A read-only view of the message's ranges."""
     return FreeScan(
         message.angle_min,
         message.angle_increment,
@@ -150,7 +162,7 @@ def scan_of(message: LaserScan) -> FreeScan:
 def rocks_message_of(
     stamp: int, run: Run, rocks: tuple[RockTrack, ...], map_stamp: int
 ) -> RockTrackArray:
-    """`map_stamp` [ns]: of the newest maps at that frame."""
+    """In the map frame. `map_stamp` [ns]: of the newest maps at that frame."""
     return RockTrackArray(
         header=header_of(stamp, frames.MAP),
         run=run.number,
@@ -169,6 +181,7 @@ def rocks_message_of(
 
 
 def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
+    """All confirmed rock tracks, in the map frame."""
     return tuple(
         RockTrack(
             id=rock.id,
@@ -183,6 +196,7 @@ def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
 
 
 def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
+    """In the map frame."""
     message = OccupancyGrid(header=header_of(stamp, frames.MAP))
     message.info.map_load_time = message.header.stamp
     message.info.resolution = grid.resolution

@@ -12,8 +12,8 @@ from rclpy.node import Node
 
 from rover_common.ros import qos
 
-PERIOD = 0.25  # [s] between looks; published once a second, and at once when the level changes
-LOOKS_PER_PUBLISH = 4
+PERIOD = 0.25  # [s] between checks; published once a second, and at once when the level changes
+CHECKS_PER_PUBLISH = 4
 
 
 class NodeDiagnostics:
@@ -28,19 +28,19 @@ class NodeDiagnostics:
         self._node = node
         self._peers = dict(peers)
         self._level: Any = None
-        self._looks = 0
+        self._checks = 0
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         # Wall time: it must go on while the simulated clock stands still.
         self._timer = node.create_timer(
-            PERIOD, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME)
+            PERIOD, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
 
-    def _look(self) -> None:
+    def _check(self) -> None:
         missing = [name for name, connected in self._peers.items() if not connected()]
         level = DiagnosticStatus.WARN if missing else DiagnosticStatus.OK
-        self._looks += 1
-        if level != self._level or self._looks >= LOOKS_PER_PUBLISH:
-            self._looks = 0
+        self._checks += 1
+        if level != self._level or self._checks >= CHECKS_PER_PUBLISH:
+            self._checks = 0
             self._level = level
             self._publish(level, missing)
 

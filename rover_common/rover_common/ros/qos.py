@@ -2,8 +2,8 @@
 
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
-# What belongs to one telemetry. The simulator has at most three exchanges in flight, so a depth of
-# four holds all that can be outstanding and never grows old.
+# What belongs to one telemetry. The simulator has at most three requests pending, so a depth of
+# four holds them all.
 FRAME = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
     depth=4,

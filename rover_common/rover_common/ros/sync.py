@@ -1,4 +1,4 @@
-"""Join the parts of one frame that arrive on several topics."""
+"""Join the messages of one frame that arrive on several topics."""
 
 from __future__ import annotations
 
@@ -6,30 +6,34 @@ from typing import Any
 
 
 class ExactTimeSynchronizer:
-    """Collects parts by stamp; a set is complete when every slot has a part of that stamp.
+    """Collects messages by stamp; a set is complete with one of that stamp from every source.
 
-    Keeps at most `pending` incomplete stamps; the oldest goes first, and is counted in `dropped`.
+    Keeps at most `queue_size` incomplete sets; the oldest is dropped first, and counted in
+    `dropped`.
     """
 
-    def __init__(self, slots: tuple[str, ...], pending: int = 8) -> None:
-        self._slots = frozenset(slots)
-        self._pending = pending
-        self._parts: dict[int, dict[str, Any]] = {}
+    def __init__(self, sources: tuple[str, ...], queue_size: int = 8) -> None:
+        self._sources = frozenset(sources)
+        self._queue_size = queue_size
+        self._sets: dict[int, dict[str, Any]] = {}
         self.dropped = 0
 
-    def add(self, slot: str, stamp: int, part: Any) -> dict[str, Any] | None:
-        """Store a part; return all parts of its stamp by slot when it was the last one."""
-        if slot not in self._slots:
-            raise KeyError(slot)
-        parts = self._parts.setdefault(stamp, {})
-        parts[slot] = part
-        if len(parts) == len(self._slots):
-            return self._parts.pop(stamp)
-        while len(self._parts) > self._pending:
-            del self._parts[next(iter(self._parts))]
+    def add(self, source: str, stamp: int, message: Any) -> dict[str, Any] | None:
+        """Store a message of this stamp [ns]; the complete set by source when it was the last one.
+
+        Raises KeyError for a source that was not named.
+        """
+        if source not in self._sources:
+            raise KeyError(source)
+        messages = self._sets.setdefault(stamp, {})
+        messages[source] = message
+        if len(messages) == len(self._sources):
+            return self._sets.pop(stamp)
+        while len(self._sets) > self._queue_size:
+            del self._sets[next(iter(self._sets))]
             self.dropped += 1
         return None
 
     def clear(self) -> None:
         """Forget all incomplete sets, uncounted: a new run begins."""
-        self._parts.clear()
+        self._sets.clear()

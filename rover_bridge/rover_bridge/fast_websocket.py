@@ -1,4 +1,4 @@
-"""The library's WebSocket for eventlet, with the unmasking done by numpy.
+"""The WebSocket of python-engineio for eventlet, with the unmasking done by numpy.
 
 The library unmasks byte by byte in Python, which costs milliseconds for a message of 10 kB.
 """
@@ -23,10 +23,10 @@ def apply_mask(
 
 
 class FastWebSocketWSGI(WebSocketWSGI):
-    """Opens WebSockets that unmask fast."""
+    """Opens WebSockets that unmask with numpy."""
 
     def _handle_hybi_request(self, environ: dict[str, Any]) -> Any:
         websocket = super()._handle_hybi_request(environ)
         websocket._apply_mask = apply_mask
-        websocket.log = io.StringIO()  # it would tell that it closes twice
+        websocket.log = io.StringIO()  # it reports that it closes twice
         return websocket

@@ -1,0 +1,197 @@
+"""The READMEs of the packages are contracts: their tables say what the code says."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable
+from dataclasses import fields
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+import pytest
+from interface_files import interface_files, members_of
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from readme_tables import ROOT, column, table
+
+from rover_bridge import errors, pending_requests, run_tracker
+from rover_bridge.config import BridgeConfig
+from rover_bridge.counters import Counter
+from rover_bridge.node import BridgeNode
+from rover_common import topics
+from rover_common.ros import qos
+from rover_common.vehicle import ROVER
+from rover_decision.node import DecisionNode
+from rover_perception.node import PerceptionNode
+
+BRIDGE = ROOT / "rover_bridge" / "README.md"
+COMMON = ROOT / "rover_common" / "README.md"
+BRINGUP = ROOT / "rover_bringup" / "README.md"
+INTERFACES = ROOT / "rover_interfaces" / "README.md"
+LAUNCH = ROOT / "rover_bringup" / "launch" / "mission.launch.py"
+OF_EVERY_NODE = {"/rosout", "/parameter_events"}
+PROFILES = {name: value for name, value in vars(qos).items() if isinstance(value, QoSProfile)}
+NODES = {"bridge": BridgeNode, "perception": PerceptionNode, "decision": DecisionNode}
+
+
+def type_of(endpoint: Any) -> str:
+    """As `package/Name`."""
+    kind = endpoint.msg_type
+    return f"{kind.__module__.split('.')[0]}/{kind.__name__}"
+
+
+def profile_of(endpoint: Any) -> str:
+    """The name of an endpoint's QoS profile."""
+    return next(name for name, value in PROFILES.items() if value is endpoint.qos_profile)
+
+
+def endpoints(of_node: Iterable[Any]) -> set[tuple[str, str, str]]:
+    """(topic, type, profile) of a node's publishers or subscriptions; the namespace is `/`."""
+    return {
+        (endpoint.topic_name, type_of(endpoint), profile_of(endpoint))
+        for endpoint in of_node
+        if endpoint.topic_name not in OF_EVERY_NODE
+    }
+
+
+def words(policy: IntEnum) -> str:
+    """A policy's name in words."""
+    return policy.name.lower().replace("_", " ")
+
+
+def absolute(topic: str) -> str:
+    return topic if topic.startswith("/") else f"/{topic}"
+
+
+@pytest.mark.parametrize("heading", ["Publishes", "Subscribes"])
+def test_the_bridges_topics_are_the_nodes(ros, heading):
+    node = ros.add(BridgeNode, port=0)
+    found = endpoints(node.publishers if heading == "Publishes" else node.subscriptions)
+    rows = table(BRIDGE, heading)
+    assert {(absolute(row["topic"]), row["type"], row["QoS"]) for row in rows} == found
+
+
+def test_the_bridges_parameters_are_those_of_its_configuration():
+    rows = table(BRIDGE, "Parameters")
+    assert [row["parameter"] for row in rows] == [field.name for field in fields(BridgeConfig)]
+    for row, field in zip(rows, fields(BridgeConfig), strict=True):
+        info = field.metadata["parameter"]
+        limits = "" if info.minimum is None else f"{info.minimum} to {info.maximum}"
+        assert (row["default"], row["range"]) == (str(field.default), limits), field.name
+
+
+def test_the_bridges_counters_are_those_counted():
+    defects = {kind.counter for kind in errors.TelemetryError.__subclasses__()}
+    listed = column(BRIDGE, "Counters", "counter")
+    assert len(listed) == len(set(listed))
+    assert set(listed) == {counter.value for counter in Counter} | defects
+
+
+def test_the_bridges_flow_names_all_its_modules():
+    flow = BRIDGE.read_text().split("## The flow of one telemetry\n")[1].split("\n## ")[0]
+    modules = {path.name for path in (ROOT / "rover_bridge" / "rover_bridge").glob("*.py")}
+    aside = {"__init__.py", "config.py", "counters.py"}
+    assert {name for name in modules if f"`{name}`" in flow} == modules - aside
+
+
+@pytest.mark.parametrize(
+    ("heading", "folder", "prefix"),
+    [("Modules without ROS", "", ""), ("Modules with ROS", "ros", "ros/")],
+)
+def test_the_common_modules_are_all_listed(heading, folder, prefix):
+    files = (ROOT / "rover_common" / "rover_common" / folder).glob("*.py")
+    names = {prefix + path.stem for path in files if path.stem != "__init__"}
+    assert set(column(COMMON, heading, "module")) == names
+
+
+def test_the_qos_profiles_are_those_of_the_code():
+    rows = table(COMMON, "QoS profiles")
+    assert {row["profile"] for row in rows} == set(PROFILES)
+    for row in rows:
+        profile = PROFILES[row["profile"]]
+        assert row["reliability"] == words(profile.reliability)
+        assert row["durability"] == words(profile.durability)
+        assert row["depth"] == str(profile.depth)
+
+
+def test_the_topics_are_those_that_the_nodes_publish(ros):
+    rows = table(COMMON, "Topics")
+    names = {name: value for name, value in vars(topics).items() if name.isupper()}
+    assert {row["constant"]: row["topic"] for row in rows} == names
+    for publisher, factory in NODES.items():
+        node: Node = ros.add(factory, **({"port": 0} if publisher == "bridge" else {}))
+        listed = {
+            (absolute(row["topic"]), row["type"], row["QoS"])
+            for row in rows
+            if row["publisher"] == publisher
+        }
+        of_node = {e for e in endpoints(node.publishers) if e[0].lstrip("/") in names.values()}
+        assert listed == of_node
+
+
+def launch_constant(name: str) -> Any:
+    """A literal of the launch file, which cannot be imported where launch is not installed."""
+    for statement in ast.parse(LAUNCH.read_text()).body:
+        if isinstance(statement, ast.Assign) and ast.unparse(statement.targets[0]) == name:
+            return ast.literal_eval(statement.value)
+    raise AssertionError(f"{LAUNCH.name} has no {name}")
+
+
+def test_the_launch_arguments_are_those_of_the_launch_file():
+    arguments = launch_constant("ARGUMENTS")
+    rows = table(BRINGUP, "Launch arguments of `mission.launch.py`")
+    assert [row["argument"] for row in rows] == list(arguments)
+    for row in rows:
+        default, meaning = arguments[row["argument"]]
+        if default is not None:  # a file of the package, by a substitution
+            assert row["default"] == (default or "none")
+        assert row["meaning"] == meaning
+
+
+def test_the_launched_nodes_are_those_of_the_launch_file():
+    rows = table(BRINGUP, "Nodes")
+    assert {row["package"]: row["executable"] for row in rows} == launch_constant("NODES")
+    assert all(row["node name"] == row["executable"] for row in rows)
+
+
+def test_the_launch_file_starts_a_node_again_that_ends():
+    calls = [
+        {keyword.arg: ast.unparse(keyword.value) for keyword in call.keywords}
+        for call in ast.walk(ast.parse(LAUNCH.read_text()))
+        if isinstance(call, ast.Call) and ast.unparse(call.func) == "Node"
+    ]
+    (nodes,) = [call for call in calls if call["package"] == "package"]
+    assert nodes["respawn"] == "True"
+    assert nodes["respawn_delay"] == "RESPAWN_DELAY"
+    assert 0.0 < launch_constant("RESPAWN_DELAY") <= 5.0
+
+
+def test_the_bringup_files_are_all_listed():
+    folder = BRINGUP.parent
+    files = [path for name in ("launch", "config", "rviz") for path in (folder / name).iterdir()]
+    listed = column(BRINGUP, "Files", "file")
+    assert set(listed) == {str(path.relative_to(folder)) for path in files if path.is_file()}
+
+
+@pytest.mark.parametrize("path", interface_files(), ids=lambda path: path.name)
+def test_the_members_are_those_of_the_interface_file(path: Path):
+    rows = [
+        (row.get("part", ""), row["member"], row["type"], row["meaning"])
+        for row in table(INTERFACES, path.name)
+    ]
+    members = members_of(path)
+    assert rows == [(m.section, m.name, m.type, m.comment) for m in members]
+    assert all(m.comment for m in members if m.name != "reason"), "a member has no comment"
+
+
+def test_the_protocols_document_names_every_defect_and_the_thresholds_of_a_run():
+    text = (ROOT / "docs" / "protocol.md").read_text()
+    assert set(re.findall(r"`(telemetry_\w+)`", text)) == {
+        kind.counter for kind in errors.TelemetryError.__subclasses__()
+    }
+    assert f"by more than {run_tracker.CLOCK_FELL_BACK:g} s" in text
+    assert f"by more than {run_tracker.POSE_JUMPED:g} m" in text
+    assert f"a speed of at most {ROVER.pickup_speed:g} m/s" in text
+    assert f"owed a telemetry for {pending_requests.SILENCE:g} s" in text
