@@ -95,6 +95,25 @@ def test_rays_to_the_bare_floor_need_no_search(renderer, monkeypatch):
     assert np.abs(short - renderer.render(pose).image).max() <= 1
 
 
+def test_objects_show_in_all_columns_of_the_image_that_see_them(terrain, monkeypatch):
+    ground = HALL.copy()
+    ground[100, 104] = False  # a boulder
+    renderer = Renderer(World("objects", ground, np.array([[98.0, 99.0]]), START), terrain)
+    random = np.random.default_rng(0)
+    poses = [
+        Pose(x - away * math.cos(yaw), y - away * math.sin(yaw), yaw + aside, pitch, roll)
+        for x, y in ((104.5, 100.5), (98.0, 99.0))
+        for away in (0.2, 0.6, 1.0, 2.0, 6.0)
+        for yaw in (-2.0, 0.5)
+        for aside in (-0.9, 0.0, 0.9, 2.5)
+        for pitch, roll in random.normal(0.0, 0.1, (1, 2))
+    ]
+    quick = [renderer.render(pose) for pose in poses]
+    monkeypatch.setattr(renderer._scene, "_columns_with_objects", lambda *_: np.ones(320, bool))
+    for pose, rendering in zip(poses, quick, strict=True):
+        assert np.array_equal(rendering.image, renderer.render(pose).image)
+
+
 def test_heights_follow_the_profile_and_the_seed():
     beyond = np.array([0.5, 1.0, 3.0, 10.0])
     assert height_at(beyond) == pytest.approx([0.26, 1.02, 6.1, 18.7])

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
 from rover_common.grid import WORLD
-from rover_simulator.sensors.scene import GROUND, SKY, Scene
+from rover_simulator.sensors.meshes import SKY
+from rover_simulator.sensors.scene import GROUND, Scene
 from rover_simulator.sensors.shading import SUN, ground_colors, noise, shine, sky_colors
 from rover_simulator.world.profile import sand_at
 from rover_simulator.world.terrain import Terrain
@@ -53,7 +54,7 @@ class Renderer:
         self._grain = GRAIN * noise((GRAIN_SIZE, GRAIN_SIZE), 1.2, seed=7)
 
     def hide_sample(self, x: float, y: float) -> bool:
-        """Whether a sample was at this place [m], which now is gone; takes half a second."""
+        """Whether a sample was at this place [m], which now is gone."""
         return self._scene.hide_sample(x, y)
 
     def render(self, pose: Pose, ground: float = 0.0, first_row: int = 0) -> Rendering:
@@ -66,7 +67,7 @@ class Renderer:
         origin = origin + rotation @ np.array([ROVER_CAMERA.forward, 0.0, ROVER_CAMERA.up])
         rays = rotation.astype(np.float32) @ self._rays[:, first_row * WIDTH :]
         level = np.hypot(rays[0], rays[1])
-        hit, distance = self._scene.cast(origin, rays, level)
+        hit, distance = self._scene.cast(origin, rotation, rays, level)
         x, y = (np.float32(origin[axis]) + rays[axis] * distance for axis in (0, 1))
         colors, grain = self._ground(x, y)
         grain *= np.exp(-distance / GRAIN_RANGE)
@@ -104,8 +105,7 @@ class Renderer:
         """Colours of the ground seen from above, (200 PAINT, 200 PAINT, 3), with its shadows."""
         x, y = _grid(SHADOW)
         start = np.stack([x, y, terrain.height_at(x, y) + SHADOW_BIAS], axis=1)
-        toward_sun = self._scene.trace(start, np.broadcast_to(SUN, start.shape))
-        blocked = toward_sun["geomID"] != SKY
+        blocked = self._scene.is_blocked(start, SUN)
         cells, shadow_cells = round(WORLD.size * PAINT), round(WORLD.size * SHADOW)
         shade = blocked.reshape(shadow_cells, shadow_cells).astype(np.float32)
         shade = np.asarray(cv2.resize(shade, (cells, cells), interpolation=cv2.INTER_LINEAR))
