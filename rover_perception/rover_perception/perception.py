@@ -24,6 +24,7 @@ from rover_perception.camera.segmentation import Segmentation, ground_columns, r
 from rover_perception.config import PerceptionConfig
 from rover_perception.frame_validation import FrameValidator
 from rover_perception.mapping.evidence import EvidenceGrid
+from rover_perception.mapping.field_of_view import FieldOfView
 from rover_perception.mapping.free_scan import blocked_scan, free_scan
 from rover_perception.mapping.occupancy import OccupancyMaps
 from rover_perception.stages import StageRunner, run_stage
@@ -38,6 +39,8 @@ class Perception:
         """`run_stage` calls every stage of `process`; a benchmark passes one that also measures."""
         self._config = config
         self._run_stage = run_stage
+        geometry = GridGeometry.of_world(config.evidence_resolution)
+        self._field_of_view = FieldOfView(geometry, config.max_range)
         self._begin(FIRST_RUN)
 
     def _begin(self, run: Run) -> None:
@@ -45,8 +48,7 @@ class Perception:
         config = self._config
         self._run = run
         self._validator = FrameValidator(ROVER_CAMERA, WORLD_SIZE, config.image_lag)
-        geometry = GridGeometry.of_world(config.evidence_resolution)
-        self._evidence = EvidenceGrid(geometry, config.max_range)
+        self._evidence = EvidenceGrid(self._field_of_view)
         self._maps = OccupancyMaps(self._evidence, config.map_resolution)
         self._rocks = RockTracks()
         self._map_stamp: int | None = None

@@ -14,8 +14,10 @@ from rover_common.grid import GridGeometry
 from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import ground_columns
 from rover_perception.mapping.evidence import EvidenceGrid
+from rover_perception.mapping.field_of_view import FieldOfView
 from rover_perception.mapping.occupancy import OccupancyMaps
 
+FIELD_OF_VIEW = FieldOfView(GridGeometry.of_world(0.25), 16.0)
 POSES = st.builds(
     Pose, st.floats(0, 30), st.floats(0, 30), st.floats(-math.pi, math.pi),
     st.floats(-0.1, 0.1), st.floats(-0.1, 0.1),
@@ -34,7 +36,7 @@ def add(evidence: EvidenceGrid, pose: Pose) -> None:
 @given(st.lists(POSES, min_size=1, max_size=6), st.sampled_from([1.0, 0.75]))
 @settings(max_examples=25, deadline=None)
 def test_maps_updated_after_each_frame_equal_maps_derived_once(poses, resolution):
-    evidence, again = (EvidenceGrid(GridGeometry.of_world(0.25), 16.0) for _ in range(2))
+    evidence, again = EvidenceGrid(FIELD_OF_VIEW), EvidenceGrid(FIELD_OF_VIEW)
     maps, at_once = OccupancyMaps(evidence, resolution), OccupancyMaps(again, resolution)
     for pose in poses:
         add(evidence, pose)
@@ -45,7 +47,7 @@ def test_maps_updated_after_each_frame_equal_maps_derived_once(poses, resolution
 
 
 def test_a_map_that_was_handed_out_does_not_change():
-    evidence = EvidenceGrid(GridGeometry.of_world(0.25), 16.0)
+    evidence = EvidenceGrid(FIELD_OF_VIEW)
     maps = OccupancyMaps(evidence, 1.0)
     add(evidence, Pose(100, 100, 0))
     world, navigation = maps.world_map().cells, maps.navigation_map().cells
@@ -59,7 +61,7 @@ def test_a_map_that_was_handed_out_does_not_change():
 
 @pytest.mark.parametrize("pose", [Pose(0.1, 0.1, -2.4), Pose(199.9, 0.1, 0.8), Pose(100, 199.9, 2)])
 def test_evidence_changes_only_inside_of_the_region_that_it_reports(pose):
-    evidence = EvidenceGrid(GridGeometry.of_world(0.25), 16.0)
+    evidence = EvidenceGrid(FIELD_OF_VIEW)
     add(evidence, pose)
     region = evidence.take_changed()
     assert region is not None

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
-from rover_common.grid import GridGeometry
 from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import GroundColumns
 from rover_perception.mapping.field_of_view import NEAREST, FieldOfView
@@ -35,9 +34,9 @@ NEAREST_DEPTH = 0.1  # [m] in front of the camera; nearer cells are skipped
 class EvidenceGrid:
     """Sums of evidence over the world, each (rows, cols) float32."""
 
-    def __init__(self, geometry: GridGeometry, max_range: float) -> None:
-        """`max_range` [m]: ground beyond is not mapped."""
-        self.geometry = geometry
+    def __init__(self, field_of_view: FieldOfView) -> None:
+        """`field_of_view`: of the cells of this grid; ground beyond its range is not mapped."""
+        self.geometry = geometry = field_of_view.geometry
         shape = geometry.rows, geometry.cols
         self.free = np.zeros(shape, np.float32)  # weighted observations
         self.blocked = np.zeros(shape, np.float32)  # weighted observations
@@ -46,7 +45,7 @@ class EvidenceGrid:
         self.base_observations = np.zeros(shape, np.float32)
         # the same, of bases too coarse in the image to tell on which side of the edge a cell lies
         self.edge_observations = np.zeros(shape, np.float32)
-        self._field_of_view = FieldOfView(geometry, max_range)
+        self._field_of_view = field_of_view
         self._changed: Region | None = None
 
     def add(

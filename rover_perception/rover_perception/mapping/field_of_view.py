@@ -21,13 +21,13 @@ class FieldOfView:
 
     def __init__(self, geometry: GridGeometry, max_range: float) -> None:
         """`max_range` [m]: no cell farther away from the rover's is listed."""
-        self._geometry = geometry
+        self.geometry = geometry
         self.reach = math.ceil(max_range / geometry.resolution)  # [cells]
         self._by_heading = _cells_by_heading(geometry, self.reach, max_range)
 
     def cells_at(self, pose: Pose) -> tuple[NDArray, NDArray, NDArray]:
         """Flat indices of cells and their centres (x, y) [m] in the level frame, float32."""
-        geometry = self._geometry
+        geometry = self.geometry
         heading = round(pose.yaw / (2.0 * math.pi) * HEADINGS) % HEADINGS
         row, col, cell, north, east = self._by_heading[heading]
         row0, col0 = map(int, geometry.cell_of(pose.x, pose.y))
@@ -50,12 +50,12 @@ def _cells_by_heading(
     grid_row, grid_col = np.meshgrid(steps, steps, indexing="ij")
     near = np.hypot(grid_row, grid_col) * resolution <= max_range
     row, col = grid_row[near], grid_col[near]
-    distance = np.hypot(row, col) * resolution
+    distance, bearing = np.hypot(row, col) * resolution, np.arctan2(row, col)
     # for half the angle between two headings, and for the rover's position in its cell
     spare = math.pi / HEADINGS + np.arcsin(np.minimum(1.0, resolution / np.maximum(distance, 1e-9)))
     lists = []
     for heading in np.arange(HEADINGS) * 2.0 * math.pi / HEADINGS:
-        aside = np.abs(np.angle(np.exp(1j * (np.arctan2(row, col) - heading))))
+        aside = np.abs((bearing - heading + math.pi) % (2.0 * math.pi) - math.pi)
         inside = (aside < math.atan(WIDTH) + spare) & (distance > NEAREST - resolution)
         cells = row[inside], col[inside]
         metres = ((step * resolution).astype(np.float32) for step in cells)
