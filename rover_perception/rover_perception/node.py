@@ -1,9 +1,9 @@
 """The perception node: images and poses to a world map, polar arrays and rocks.
 
 Subscribes camera/image_raw, odom and rover_status (joined by stamp). Publishes nav_polar,
-rock_polar, free_scan and rocks (latched) for every frame; worldmap
-(latched); navigation_map and vision_image, both only while subscribed; /diagnostics. Parameters:
-see PerceptionConfig.
+rock_polar, free_scan and rocks (latched) for every frame; worldmap (latched) at the map period;
+navigation_map (latched) and vision_image only while subscribed; /diagnostics. Parameters: see
+PerceptionConfig. The whole contract is in the package's README.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ PAUSE = 0.2  # [s] of wall time without a frame after which the map is brought u
 
 
 class PerceptionNode(Node):
-    """Joins image and odometry, calls the core once per frame, publishes what came of it."""
+    """Joins the parts of a frame, calls the core once per frame and publishes its result."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("perception_node", **kwargs)
@@ -47,10 +47,10 @@ class PerceptionNode(Node):
         self._map_stamp: int | None = None
         self._navigation_map_stamp: int | None = None
         self._vision_stamp: int | None = None
-        self._frames_at_last_look = 0
+        self._frames_at_last_check = 0
         self._make_endpoints()
         self._pause_timer = self.create_timer(
-            PAUSE, self._on_pause_look, clock=Clock(clock_type=ClockType.STEADY_TIME)
+            PAUSE, self._on_pause_check, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
 
     def _make_endpoints(self) -> None:
@@ -109,7 +109,7 @@ class PerceptionNode(Node):
         self.get_logger().warning(f"frame dropped: {error}", throttle_duration_sec=LOG_PERIOD)
 
     def _publish(self, result: PerceptionResult) -> None:
-        """First what the decision waits for."""
+        """What the decision node waits for goes first."""
         stamp, run = result.stamp, result.run
         rocks = conversions.rocks_message_of(stamp, run, result.rocks, result.map_stamp)
         self._rock_list.publish(rocks)
@@ -130,24 +130,25 @@ class PerceptionNode(Node):
         self._publish_navigation_map(stamp)
 
     def _publish_navigation_map(self, stamp: int) -> None:
-        """Only while somebody listens: it has sixteen times the cells of the world map."""
+        """Only while subscribed: its message is sixteen times as large as the world map's."""
         if self._navigation_map.get_subscription_count() and self._navigation_map_stamp != stamp:
             self._navigation_map_stamp = stamp
             grid = conversions.grid_message_of(stamp, self._core.navigation_map())
             self._navigation_map.publish(grid)
 
     def _publish_vision(self, stamp: int) -> None:
-        if self._core.last is None:
+        segmentation = self._core.segmentation
+        if segmentation is None:
             return
         self._vision_stamp = stamp
-        picture = vision_image(self._core.last)
+        picture = vision_image(segmentation)
         self._vision.publish(conversions.image_message_of(stamp, frames.CAMERA_OPTICAL, picture))
 
-    def _on_pause_look(self) -> None:
-        """When frames have stopped coming, publish the maps with the last of them."""
+    def _on_pause_check(self) -> None:
+        """When no frames arrive, publish the maps that include the last one."""
         frame_count = self._diagnostics.counts["frames"]
-        paused = frame_count == self._frames_at_last_look
-        self._frames_at_last_look = frame_count
+        paused = frame_count == self._frames_at_last_check
+        self._frames_at_last_check = frame_count
         if not paused or self._stamp is None:
             return
         if self._map_stamp != self._stamp:
@@ -157,7 +158,7 @@ class PerceptionNode(Node):
 
 def _due(last: int | None, now: int, period: float) -> bool:
     """Whether a period [s] of frame time has passed between two stamps [ns]."""
-    return last is None or abs(now - last) >= period * 1e9
+    return last is None or now - last >= period * 1e9
 
 
 def main() -> None:

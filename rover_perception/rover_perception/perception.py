@@ -1,112 +1,130 @@
-"""Perception's core: a camera frame in, a perception result out; it keeps the map and the rocks."""
+"""The perception pipeline: a camera frame in, a perception result out.
+
+It keeps the map and the rock tracks of the run, and needs no ROS.
+"""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.camera import ROVER_CAMERA
-from rover_common.grid import GridGeometry
+from rover_common.grid import WORLD, GridGeometry
 from rover_common.types import (
     FIRST_RUN,
     CameraFrame,
+    FreeScan,
     GridMap,
     PerceptionResult,
     PolarArray,
     Run,
 )
-from rover_perception.camera.ground_projection import View
-from rover_perception.camera.segmentation import Columns, ground_columns, rock_mask
+from rover_perception.camera.ground_projection import GroundProjection
+from rover_perception.camera.segmentation import Segmentation, ground_columns, rock_mask
 from rover_perception.config import PerceptionConfig
-from rover_perception.frame_validation import FrameGate
+from rover_perception.frame_validation import FrameValidator
 from rover_perception.mapping.evidence import EvidenceGrid
-from rover_perception.mapping.occupancy import occupancy_of
-from rover_perception.mapping.scan import free_scan, no_scan
+from rover_perception.mapping.field_of_view import FieldOfView
+from rover_perception.mapping.free_scan import blocked_scan, free_scan
+from rover_perception.mapping.occupancy import OccupancyMaps
+from rover_perception.stages import StageRunner, run_stage
 from rover_perception.tracking.rock_detection import detect_rocks
 from rover_perception.tracking.rock_tracks import RockTracks
 
 
-@dataclass(frozen=True)
-class Seen:
-    """What was made of the last frame, for the vision image."""
-
-    image: NDArray[np.uint8]
-    columns: Columns
-    rocks: NDArray[np.uint8]
-
-
 class Perception:
-    """Feed it frames in any order; it needs no ROS."""
+    """Processes the frames of one run after another, in the order of their stamps."""
 
-    def __init__(self, config: PerceptionConfig) -> None:
+    def __init__(self, config: PerceptionConfig, run_stage: StageRunner = run_stage) -> None:
+        """`run_stage` calls every stage of `process`; a benchmark passes one that also measures."""
         self._config = config
-        self.last: Seen | None = None
+        self._run_stage = run_stage
+        geometry = GridGeometry.of_world(config.evidence_resolution)
+        self._field_of_view = FieldOfView(geometry, config.max_range)
         self._begin(FIRST_RUN)
 
     def _begin(self, run: Run) -> None:
-        """Forget the map, the rocks and the frames before."""
+        """Start with an empty map, no rock tracks and no history of frames."""
+        config = self._config
         self._run = run
-        self._gate = FrameGate(self._config.image_lag)
-        geometry = GridGeometry.of_world(self._config.evidence_resolution)
-        self._evidence = EvidenceGrid(geometry, self._config.max_range)
+        self._validator = FrameValidator(ROVER_CAMERA, WORLD.size, config.image_lag)
+        self._evidence = EvidenceGrid(self._field_of_view)
+        self._maps = OccupancyMaps(self._evidence, config.map_resolution)
         self._rocks = RockTracks()
         self._map_stamp: int | None = None
+        self._segmentation: Segmentation | None = None
 
     def process(self, frame: CameraFrame) -> PerceptionResult:
-        """Add one frame to the map; raises FrameError and leaves the map as it was."""
+        """Add one frame to the map and the rock tracks.
+
+        A frame of another run starts anew first. Raises FrameError for a frame that cannot be used,
+        which leaves map and tracks unchanged.
+        """
         if frame.run.number != self._run.number:
             self._begin(frame.run)
-        pose = self._gate.admit(frame)
-        map_stamp = self._newest_map(frame.stamp)
-        view = View.of(ROVER_CAMERA, pose)
-        if not view.usable:
-            scan = no_scan(self._config.max_range)
-            nothing = PolarArray.empty()
-            rocks = self._rocks.believed()
-            return PerceptionResult(
-                frame.stamp, nothing, nothing, scan, rocks, map_stamp, frame.run
-            )
-        mask = rock_mask(frame.image, view)
-        sightings = detect_rocks(frame.image, mask, view, pose)
-        columns = ground_columns(frame.image, mask if len(sightings.x) else None, view)
-        x, y = self._evidence.add(view, columns, pose)
-        if sightings.rocks:
-            self._rocks.add(sightings.rocks, frame.stamp)
-        self.last = Seen(frame.image, columns, mask)
-        return PerceptionResult(
-            stamp=frame.stamp,
-            nav=_polar(x, y),
-            rock=_polar(sightings.x, sightings.y),
-            scan=free_scan(view, columns, self._config.max_range),
-            rocks=self._rocks.believed(),
-            map_stamp=map_stamp,
-            run=frame.run,
-        )
+        run, image, max_range = self._run_stage, frame.image, self._config.max_range
+        pose = run("validation", self._validator.validate, frame)
+        projection = run("projection", GroundProjection.of, ROVER_CAMERA, pose)
+        if not projection.usable:
+            self._segmentation = None
+            return self._result(frame, blocked_scan(max_range))
+        mask = run("rock_mask", rock_mask, image, projection)
+        rocks = run("rock_detection", detect_rocks, image, mask, projection, pose)
+        ground_mask = mask if len(rocks.x) else None
+        columns = run("ground_columns", ground_columns, image, ground_mask, projection)
+        ground = run("evidence", self._evidence.add, projection, columns, pose)
+        run("rock_tracks", self._rocks.add, rocks.rocks, frame.stamp)
+        scan = run("free_scan", free_scan, projection, columns, max_range)
+        nav = run("nav_polar", polar_array, *ground)
+        rock = run("rock_polar", polar_array, rocks.x, rocks.y)
+        self._segmentation = Segmentation(image, mask, columns)
+        return self._result(frame, scan, nav, rock)
+
+    @property
+    def segmentation(self) -> Segmentation | None:
+        """Of the newest frame; None before the first one of a run, and without usable ground."""
+        return self._segmentation
 
     @property
     def evidence(self) -> EvidenceGrid:
-        """What the maps are made of."""
+        """What the maps are derived from."""
         return self._evidence
 
     def world_map(self) -> GridMap:
-        """The map as it is published."""
-        return occupancy_of(self._evidence, self._config.map_resolution)
+        """The map in cells of `map_resolution`."""
+        return self._maps.world_map()
 
     def navigation_map(self) -> GridMap:
-        """The same at the resolution of the evidence."""
-        return occupancy_of(self._evidence, self._config.evidence_resolution)
+        """The same map in cells of `evidence_resolution`."""
+        return self._maps.navigation_map()
+
+    def _result(
+        self,
+        frame: CameraFrame,
+        scan: FreeScan,
+        nav: PolarArray | None = None,
+        rock: PolarArray | None = None,
+    ) -> PerceptionResult:
+        return PerceptionResult(
+            stamp=frame.stamp,
+            nav=nav or PolarArray.empty(),
+            rock=rock or PolarArray.empty(),
+            scan=scan,
+            rocks=self._rocks.confirmed(),
+            map_stamp=self._newest_map(frame.stamp),
+            run=frame.run,
+        )
 
     def _newest_map(self, stamp: int) -> int:
-        """Maps are due at the first frame, and at each that is a period away from the last map."""
-        last, period = self._map_stamp, self._config.map_period * 1e9
-        if last is None or abs(stamp - last) >= period:
+        """Maps are due at the first frame, and whenever `map_period` has passed since the last."""
+        last = self._map_stamp
+        if last is None or stamp - last >= self._config.map_period * 1e9:
             self._map_stamp = last = stamp
         return last
 
 
-def _polar(x: NDArray, y: NDArray) -> PolarArray:
+def polar_array(x: NDArray, y: NDArray) -> PolarArray:
+    """Points (x, y) [m] of the level frame by range and bearing."""
     return PolarArray(
         np.hypot(x, y).astype(np.float32),
         np.arctan2(y, x).astype(np.float32),

@@ -1,4 +1,4 @@
-"""Rocks: one entry each, at the right place, and none where there is none."""
+"""Rocks: one confirmed track each, at the right position, and none without a rock."""
 
 import cv2
 import numpy as np
@@ -7,14 +7,13 @@ import pytest
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
 from rover_common.geometry import Pose
 from rover_common.types import CameraFrame, RockTrack
-from rover_perception.camera.ground_projection import View
+from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import rock_mask
 from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
 from rover_perception.tracking.rock_detection import RockSighting, detect_rocks
-from rover_perception.tracking.rock_tracks import RockTracks
-from rover_simulator.sensors.jpeg import encode_jpeg
-from rover_simulator.sensors.renderer import Renderer
+from rover_perception.tracking.rock_tracks import CONFIRMED_OBSERVATIONS, RockTracks
+from rover_simulator.sensors.renderer import Renderer, encode_jpeg
 from rover_simulator.world.terrain import Terrain
 from rover_simulator.world.world import World
 
@@ -29,15 +28,15 @@ def hall(samples: list[tuple[float, float]]) -> World:
     return World("hall", navigable, np.array(samples, float).reshape(-1, 2), Pose(85, 100, 0))
 
 
-def rocks_seen(world: World, poses: list[Pose]) -> list[tuple[float, float]]:
+def rocks_found(world: World, poses: list[Pose]) -> list[tuple[float, float]]:
     renderer = Renderer(world, Terrain.of(world.navigable))
     core = Perception(PerceptionConfig(image_lag=0))
-    percept = None
+    result = None
     for index, pose in enumerate(poses):
         image = through_jpeg(renderer.render(pose).image)
-        percept = core.process(CameraFrame(1 + index * 40_000_000, pose, image))
-    assert percept is not None
-    return [(rock.x, rock.y) for rock in percept.rocks]
+        result = core.process(CameraFrame(1 + index * 40_000_000, pose, image))
+    assert result is not None
+    return [(rock.x, rock.y) for rock in result.rocks]
 
 
 def through_jpeg(image: np.ndarray) -> np.ndarray:
@@ -54,26 +53,26 @@ def approach(x: float, y: float, tilt: float = 0.0) -> list[Pose]:
 
 
 @pytest.mark.parametrize("tilt", [0.0, 0.02])
-def test_one_rock_is_one_entry_near_its_place(tilt):
-    (found,) = rocks_seen(hall([(100.0, 100.4)]), approach(100.0, 100.0, tilt))
+def test_one_rock_is_one_track_near_its_position(tilt):
+    (found,) = rocks_found(hall([(100.0, 100.4)]), approach(100.0, 100.0, tilt))
     assert np.hypot(found[0] - 100.0, found[1] - 100.4) < 0.35
 
 
-def test_from_two_sides_it_stays_one():
+def test_a_rock_observed_from_two_sides_is_one_track():
     away = [Pose(106 - 0.25 * i, 100.2, np.pi) for i in range(16)]
-    found = rocks_seen(hall([(100.0, 100.0)]), approach(100.0, 100.2) + away)
+    found = rocks_found(hall([(100.0, 100.0)]), approach(100.0, 100.2) + away)
     assert len(found) == 1
 
 
-def test_two_rocks_side_by_side_are_two():
-    found = rocks_seen(hall([(100.0, 99.2), (100.0, 101.2)]), approach(100.0, 100.2))
+def test_two_rocks_side_by_side_are_two_tracks():
+    found = rocks_found(hall([(100.0, 99.2), (100.0, 101.2)]), approach(100.0, 100.2))
     assert len(found) == 2
     assert sorted(round(y) for _, y in found) == [99, 101]
 
 
-def test_no_rock_where_there_is_none():
+def test_no_rock_is_reported_without_one():
     turning = [Pose(90, 100, 0.2 * i) for i in range(32)]
-    assert rocks_seen(hall([]), approach(115.0, 100.0) + turning) == []
+    assert rocks_found(hall([]), approach(115.0, 100.0) + turning) == []
 
 
 def sighting(origin: tuple[float, float], target: tuple[float, float, float]) -> RockSighting:
@@ -88,17 +87,27 @@ def tracked(sightings: list[RockSighting]) -> tuple[RockTrack, ...]:
     tracks = RockTracks()
     for index, one in enumerate(sightings):
         tracks.add((one,), index)
-    return tracks.believed()
+    return tracks.confirmed()
 
 
-def test_where_lines_to_two_rocks_cross_is_none():
-    # both are too far away to have a range; the crossing is 2 m from the first, 12 from the second
+def test_no_track_is_confirmed_where_lines_to_two_rocks_cross():
+    # both are too far away to have a range; lines cross 2 m from the first rock, 12 from the second
     first = [sighting((84.0 + 0.1 * i, 41.2), (94.0, 42.2, 0.065)) for i in range(3)]
     second = [sighting((104.4, 27.1 + 0.1 * i), (99.0, 37.5, 0.065)) for i in range(3)]
     assert tracked(first + second) == ()
 
 
-def test_a_rock_seen_past_another_one_stays_itself():
+def test_a_track_is_tentative_until_enough_frames_observed_it():
+    tracks = RockTracks()
+    for index in range(CONFIRMED_OBSERVATIONS):
+        assert tracks.confirmed() == ()
+        tracks.add((sighting((97.0, 98.0 + index), (100.0, 100.2, 0.065)),), index)
+        assert len(tracks.tracks) == 1
+    (rock,) = tracks.confirmed()
+    assert (rock.observations, rock.last_seen) == (CONFIRMED_OBSERVATIONS, index)
+
+
+def test_a_rock_observed_past_another_one_keeps_its_own_track():
     near = [sighting((95.0 + 0.2 * i, 100.0), (100.0, 100.2, 0.065)) for i in range(22)]
     far = [sighting((98.0, 95.0 + 0.2 * i), (100.0, 106.0, 0.065)) for i in range(30)]
     found = tracked(near + far)
@@ -107,8 +116,8 @@ def test_a_rock_seen_past_another_one_stays_itself():
     assert np.hypot(found[1].x - 100.0, found[1].y - 106.0) < 0.3
 
 
-def test_lines_that_do_not_meet_are_no_rock():
-    # yellow that keeps 1.5 m ahead of the camera, as what sticks to a wall's edge does
+def test_lines_that_do_not_meet_are_not_confirmed():
+    # yellow that stays 1.5 m ahead of the camera, as an artefact at a wall's edge does
     ahead = [
         sighting((95.0 + 0.15 * i, 100.0), (96.5 + 0.15 * i, 100.0 + 0.4 * (-1) ** i, 0.065))
         for i in range(8)
@@ -116,8 +125,8 @@ def test_lines_that_do_not_meet_are_no_rock():
     assert tracked(ahead) == ()
 
 
-def test_dark_ground_tinted_by_a_sample_is_no_second_one():
-    view = View.of(ROVER_CAMERA, LEVEL)
+def test_dark_ground_tinted_by_a_sample_is_no_second_sample():
+    projection = GroundProjection.of(ROVER_CAMERA, LEVEL)
     tinted = 0
     for left in range(150, 166):
         image = np.full((160, 320, 3), (30, 25, 21), np.uint8)
@@ -125,18 +134,18 @@ def test_dark_ground_tinted_by_a_sample_is_no_second_one():
         image[102:] = (230, 210, 190)
         image[90:97, left - 12 : left] = (70, 60, 50)
         image = through_jpeg(image)
-        mask = rock_mask(image, view)
+        mask = rock_mask(image, projection)
         tinted += cv2.connectedComponents(mask, connectivity=8)[0] > 2
-        assert len(detect_rocks(image, mask, view, LEVEL).x) == 1
-    assert tinted > 3  # the file does that to it
+        assert len(detect_rocks(image, mask, projection, LEVEL).x) == 1
+    assert tinted > 3  # the JPEG file tints it
 
 
-def test_two_samples_in_one_block_of_colour_are_two():
-    view = View.of(ROVER_CAMERA, LEVEL)
+def test_two_samples_in_one_chroma_block_are_two():
+    projection = GroundProjection.of(ROVER_CAMERA, LEVEL)
     image = np.full((160, 320, 3), (230, 210, 190), np.uint8)
     for left in (161, 169):
         image[98:102, left : left + 5] = (170, 143, 15)
-    assert len(detect_rocks(image, rock_mask(image, view), view, LEVEL).x) == 2
+    assert len(detect_rocks(image, rock_mask(image, projection), projection, LEVEL).x) == 2
 
 
 def test_recorded_samples_are_located(recordings):
@@ -144,12 +153,12 @@ def test_recorded_samples_are_located(recordings):
     from rover_tools.evaluation.results import load_samples
 
     core = Perception(PerceptionConfig(image_lag=0))
-    percept = None
+    result = None
     for index, frame in enumerate(read_recording(recordings / "udacity/test_dataset").frames):
         image = cv2.cvtColor(cv2.imread(str(frame.image_path)), cv2.COLOR_BGR2RGB)
-        percept = core.process(CameraFrame(1 + index * 40_000_000, frame.pose, image))
-    assert percept is not None
+        result = core.process(CameraFrame(1 + index * 40_000_000, frame.pose, image))
+    assert result is not None
     ((x, y),) = load_samples(recordings / "udacity/samples.csv")
-    (rock,) = percept.rocks
+    (rock,) = result.rocks
     assert np.hypot(rock.x - x, rock.y - y) < 0.5
     assert rock.observations > 10

@@ -1,1 +1,1 @@
-"""From pixels to classified ground."""
+"""From pixels to segmented ground."""

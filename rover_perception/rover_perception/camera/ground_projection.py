@@ -1,7 +1,7 @@
-"""Where the camera looks in one frame: between pixels and flat ground, with pitch and roll.
+"""The projection between pixels and flat ground at one frame's pitch and roll.
 
-The level frame is base_link without pitch and roll: its origin on the rover's, x forward along the
-yaw, y left, z up. Pixel coordinates are continuous: pixel (0, 0) reaches from 0 to 1.
+The level frame is base_link without pitch and roll: the same origin, x forward along the yaw, y
+left, z up. Pixel coordinates are continuous: pixel (0, 0) spans 0 to 1 in both directions.
 """
 
 from __future__ import annotations
@@ -17,15 +17,16 @@ from rover_common.geometry import Pose, tilt_matrix
 
 Array = NDArray[np.floating]
 
-# The suspension stops here; beyond, the body stands on two wheels, about this far from its origin.
+# Beyond the suspension's stop the body pivots about two wheels, which lifts its origin.
 SUSPENSION_STOP = math.radians(1.4)  # [rad]
-WHEEL_LEVER = 0.36  # [m], the mean of 0.386 to the front, 0.336 to the rear, 0.396 to the sides
+WHEEL_LEVER = 0.36  # [m] origin to wheel: mean of 0.386 front, 0.336 rear, 0.396 sides
 LOWEST_CAMERA = 0.1  # [m] below this the rover has turned over
+LEAST_UPRIGHT = 0.5  # cosine of the body's tilt: 60 degrees
 
 
 @dataclass(frozen=True)
-class View:
-    """The projection of one frame; `usable` is False when no ground can be seen by it."""
+class GroundProjection:
+    """The projection of one frame; not `usable` when the rover lies on its side or back."""
 
     camera: PinholeCamera
     tilt: Array  # (3, 3) base_link to level frame
@@ -33,7 +34,7 @@ class View:
     height_error: float  # relative error of the camera's height, from the tilt
 
     @classmethod
-    def of(cls, camera: PinholeCamera, pose: Pose) -> View:
+    def of(cls, camera: PinholeCamera, pose: Pose) -> GroundProjection:
         tilt = tilt_matrix(pose)
         x, y, z = tilt @ (camera.forward, 0.0, camera.up)
         lifted = sum(
@@ -45,12 +46,12 @@ class View:
 
     @property
     def height(self) -> float:
-        """[m] of the optical centre above the ground."""
+        """Of the optical centre above the ground [m]."""
         return self.position[2]
 
     @property
     def usable(self) -> bool:
-        return self.height > LOWEST_CAMERA and self.tilt[2, 2] > 0.5
+        return self.height > LOWEST_CAMERA and self.tilt[2, 2] > LEAST_UPRIGHT
 
     def horizon(self, u: Array) -> Array:
         """Row of the horizon in each column u [px]."""
@@ -59,7 +60,7 @@ class View:
 
     @property
     def highest_horizon(self) -> float:
-        """Row of the horizon [px] at the image's edge where it stands highest."""
+        """Row of the horizon [px] at the image's left or right edge, whichever is higher."""
         return min(self._horizon_at_edges())
 
     def _horizon_at_edges(self) -> tuple[float, float]:
@@ -74,9 +75,10 @@ class View:
         )
 
     def ground(self, u: Array, v: Array, level: float = 0.0) -> tuple[Array, Array]:
-        """Points (x, y) [m] of the level frame, `level` [m] above the ground, under the pixels.
+        """Points (x, y) [m] of the level frame that the pixels (u, v) show.
 
-        Rows at the horizon or above give inf.
+        The points lie on a plane `level` [m] above the ground. Pixels at the horizon or above it
+        give inf.
         """
         left = (self.camera.center_u - u) / self.camera.focal
         up = (self.camera.center_v - v) / self.camera.focal
@@ -90,11 +92,10 @@ class View:
     def pixels(self, x: Array, y: Array) -> tuple[Array, Array, Array]:
         """Pixels (u, v) of ground points [m] of the level frame, and their depth [m].
 
-        Points with a depth of less than a centimetre are behind the camera; their pixels mean
-        nothing.
+        Pixels of points with a depth below 0.01 m, in or behind the camera, are meaningless.
         """
         dx, dy, dz = x - self.position[0], y - self.position[1], -self.height
-        t = self.tilt.tolist()  # plain floats, which leave the arrays' precision as it is
+        t = self.tilt.tolist()  # Python floats keep the precision of the arrays
         depth = t[0][0] * dx + t[1][0] * dy + t[2][0] * dz
         left = t[0][1] * dx + t[1][1] * dy + t[2][1] * dz
         up = t[0][2] * dx + t[1][2] * dy + t[2][2] * dz

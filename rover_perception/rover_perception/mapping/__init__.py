@@ -1,1 +1,1 @@
-"""From classified ground to maps and scans."""
+"""From segmented ground to maps and scans."""

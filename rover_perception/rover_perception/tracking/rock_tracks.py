@@ -1,12 +1,13 @@
-"""One rock, one entry: lines of sight over time, joined by an information filter.
+"""RockTrack tracks: lines of sight of several frames, fused by an information filter.
 
-A track is a point in space. Each line of sight says nothing of how far away it is and much of where
-it is across the line, so a few frames from different places find it by triangulation. One from a
-single place still has a range, by how high samples are; that height is a property of the rock and
-the same in all frames, so it enters once, as the track's prior.
+A track is a point in space. A line of sight locates the rock across the line but not along it, so
+frames from different positions locate it by triangulation. From a single position the range follows
+from the height of samples. That height is a property of the rock and the same in all frames, so it
+enters once, as the track's prior.
 
-Lines to two rocks cross as well, where there is none. So a rock whose range is not known yet is
-followed along its line of sight only, and one is believed only if its lines meet in one point.
+Lines to two different rocks intersect as well, where there is no rock. Therefore a track whose
+range is still unknown is only associated along its line of sight, and a track is confirmed only
+when its lines meet in one point.
 """
 
 from __future__ import annotations
@@ -18,33 +19,34 @@ import numpy as np
 from rover_common.types import RockTrack
 from rover_perception.tracking.rock_detection import MIDDLE_HEIGHT, RockSighting
 
-GATE = 3.0  # standard deviations within which a sighting belongs to a rock
-MIN_GATE = 0.5  # [m]; rocks are nowhere nearer to each other than this
-# A rock is believed when several frames agree on where it is.
-BELIEVED_OBSERVATIONS = 4
-# [m] standard deviation in its worst direction. It is stated with care: on generated canyons the
-# rocks below were at most 0.42 m off, of those below 1 m two were not within 0.5 m.
-BELIEVED_ERROR = 0.8
-BELIEVED_MISFIT = 3.0  # standard deviations of chi-square above its mean
-# A rock is followed along lines of sight that differ by less than this until it is located so well.
+GATE = 3.0  # standard deviations within which a sighting is associated with a track
+MIN_GATE = 0.5  # [m]; no two rocks are closer to each other than this
+# A track is confirmed when several frames agree on its position.
+CONFIRMED_OBSERVATIONS = 4
+# [m] standard deviation in the worst direction. It is conservative: on generated canyons, tracks
+# below it were at most 0.42 m off; two of those below 1 m were more than 0.5 m off.
+CONFIRMED_ERROR = 0.8
+CONFIRMED_MISFIT = 3.0  # standard deviations of chi-square above its mean
+# Until a track is located to LOCATED_ERROR, only lines of sight within this angle are associated.
 SAME_SIDE = math.cos(math.radians(30.0))
 LOCATED_ERROR = 0.4  # [m]
-# Errors of one place repeat from frame to frame, so a rock is never known better than this.
+# Errors at one position repeat from frame to frame, so they set a lower bound on the variance.
 LEAST_VARIANCE = 0.1**2  # [m^2]
-# A sample's middle is at 0.045 to 0.085 m, more when its lower part is buried in the wall's foot.
+# A sample's middle is at 0.045 to 0.085 m, more when its lower part is buried in a wall's base.
 HEIGHT_ERROR = 0.025  # [m] of the height of its middle
 PLANE = np.array([0.0, 0.0, 1.0, -MIDDLE_HEIGHT]) / HEIGHT_ERROR
 PRIOR = np.outer(PLANE, PLANE)  # the quadric of a plane at that height
 
 
-class _Track:
-    """What the lines of sight of one rock say together.
+class Track:
+    """One rock: what its lines of sight say together.
 
-    quadric: (4, 4) of the square distance of a point from all of the lines, in standard deviations:
-    for a point p [m] it is (p, 1)' quadric (p, 1). They add up (Garland and Heckbert, 1997).
+    quadric: (4, 4) of the squared distance of a point from all lines, in standard deviations: for a
+    point p [m] it is (p, 1)' quadric (p, 1). Quadrics add up (Garland and Heckbert, 1997).
     """
 
     def __init__(self, id: int, sighting: RockSighting, stamp: int) -> None:
+        """A tentative track of one sighting, seen at `stamp` [ns]."""
         across = np.eye(3) - np.outer(sighting.direction, sighting.direction)
         offset = np.column_stack([across, -across @ sighting.origin]) / sighting.error
         self.id = id
@@ -54,7 +56,8 @@ class _Track:
         self.last_seen = stamp  # [ns]
         self._solve()
 
-    def join(self, other: _Track) -> None:
+    def join(self, other: Track) -> None:
+        """Add all lines of another track."""
         self.quadric = self.quadric + other.quadric
         self.observations += other.observations
         if other.last_seen >= self.last_seen:
@@ -66,19 +69,22 @@ class _Track:
         covariance = np.linalg.inv(total[:3, :3])
         point = np.append(-covariance @ total[:3, 3], 1.0)
         misfit = float(point @ total @ point)  # chi-square
-        freedom = 2 * self.observations - 2  # two per line and the height, less the point's three
+        freedom = 2 * self.observations - 2  # two per line, one for the height, less three unknowns
         self.position = point[:2]  # [m] map frame
         self.covariance = covariance[:2, :2] + LEAST_VARIANCE * np.eye(2)  # [m^2]
-        self.error = math.sqrt(np.linalg.eigvalsh(self.covariance)[-1])  # [m] where it is largest
-        self.fits = misfit <= freedom + BELIEVED_MISFIT * math.sqrt(2 * freedom)
+        self.error = math.sqrt(
+            np.linalg.eigvalsh(self.covariance)[-1]
+        )  # [m] in the worst direction
+        self.fits = misfit <= freedom + CONFIRMED_MISFIT * math.sqrt(2 * freedom)
 
     @property
-    def believed(self) -> bool:
-        seen = self.observations >= BELIEVED_OBSERVATIONS
-        return seen and self.error < BELIEVED_ERROR and self.fits
+    def confirmed(self) -> bool:
+        """Whether enough lines agree on the position; a tentative track is not reported."""
+        enough = self.observations >= CONFIRMED_OBSERVATIONS
+        return enough and self.error < CONFIRMED_ERROR and self.fits
 
-    def near(self, other: _Track) -> bool:
-        """Whether both can be one rock."""
+    def near(self, other: Track) -> bool:
+        """Whether both can be the same rock."""
         offset = self.position - other.position
         if np.hypot(*offset) < MIN_GATE:
             return True
@@ -88,51 +94,48 @@ class _Track:
         joint = self.covariance + other.covariance
         return bool(offset @ np.linalg.solve(joint, offset) < GATE**2)
 
+    def report(self) -> RockTrack:
+        """The track as it is reported."""
+        x, y = self.position.tolist()
+        (xx, xy), (yx, yy) = self.covariance.tolist()
+        return RockTrack(self.id, x, y, (xx, xy, yx, yy), self.observations, self.last_seen)
+
 
 class RockTracks:
-    """All rocks seen so far."""
+    """The tracks of one run, tentative and confirmed."""
 
     def __init__(self) -> None:
-        self._tracks: list[_Track] = []
+        self.tracks: list[Track] = []
         self._next_id = 1
-        self._believed: tuple[RockTrack, ...] = ()
+        self._confirmed: tuple[RockTrack, ...] = ()
 
     def add(self, sightings: tuple[RockSighting, ...], stamp: int) -> None:
-        """Add the sightings of one frame, taken at `stamp` [ns]."""
+        """Associate the sightings of one frame, taken at `stamp` [ns], with tracks."""
         for sighting in sightings:
-            seen = _Track(self._next_id, sighting, stamp)
-            match = self._nearest(seen)
+            new = Track(self._next_id, sighting, stamp)
+            match = self._nearest(new)
             if match is None:
-                self._tracks.append(seen)
+                self.tracks.append(new)
                 self._next_id += 1
             else:
-                match.join(seen)
+                match.join(new)
                 self._merge(match)
+        if sightings:
+            self._confirmed = tuple(track.report() for track in self.tracks if track.confirmed)
 
-        self._believed = tuple(_rock(track) for track in self._tracks if track.believed)
-
-    def believed(self) -> tuple[RockTrack, ...]:
+    def confirmed(self) -> tuple[RockTrack, ...]:
         """The rocks that enough frames agree on."""
-        return self._believed
+        return self._confirmed
 
-    def _nearest(self, seen: _Track) -> _Track | None:
-        near = [track for track in self._tracks if track.near(seen)]
-        return min(
-            near, key=lambda track: np.hypot(*(track.position - seen.position)), default=None
-        )
+    def _nearest(self, new: Track) -> Track | None:
+        near = [track for track in self.tracks if track.near(new)]
+        return min(near, key=lambda track: np.hypot(*(track.position - new.position)), default=None)
 
-    def _merge(self, grown: _Track) -> None:
-        """Join the tracks that a better position has shown to be the same rock."""
-        for track in [t for t in self._tracks if t is not grown]:
-            if track.near(grown):
-                first, second = sorted((track, grown), key=lambda t: t.id)
+    def _merge(self, updated: Track) -> None:
+        """Join the tracks that the better position shows to be the same rock."""
+        for track in [track for track in self.tracks if track is not updated]:
+            if track.near(updated):
+                first, second = sorted((track, updated), key=lambda track: track.id)
                 first.join(second)
-                self._tracks.remove(second)
-                grown = first
-
-
-def _rock(track: _Track) -> RockTrack:
-    x, y = track.position
-    (xx, xy), (yx, yy) = track.covariance
-    covariance = (float(xx), float(xy), float(yx), float(yy))
-    return RockTrack(track.id, float(x), float(y), covariance, track.observations, track.last_seen)
+                self.tracks.remove(second)
+                updated = first

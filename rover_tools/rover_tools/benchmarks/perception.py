@@ -1,7 +1,7 @@
-"""`rover bench perception`: time per frame and map scores, beside the usual recipe's.
+"""`rover bench perception`: time per frame and stage, and map scores, against a baseline.
 
-Runs the core without ROS, in one thread, on recorded runs where there are some, else on drives
-rendered through generated canyons. Reading the images is not counted.
+Runs the core without ROS, in one thread, on recorded runs if there are any, else on drives rendered
+through generated canyons. Reading the images is not measured.
 """
 
 from __future__ import annotations
@@ -12,40 +12,37 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import ParamSpec, TypeVar
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose
 from rover_common.types import CameraFrame
-from rover_perception.camera.ground_projection import View
-from rover_perception.camera.segmentation import ground_columns, rock_mask
 from rover_perception.config import PerceptionConfig
-from rover_perception.mapping.evidence import EvidenceGrid
-from rover_perception.mapping.occupancy import shares_of
-from rover_perception.mapping.scan import free_scan
+from rover_perception.mapping.occupancy import free_shares
 from rover_perception.perception import Perception
-from rover_perception.tracking.rock_detection import detect_rocks
 from rover_simulator.recordings.recording import read_recording
-from rover_tools.benchmarks.baseline import ReferenceRecipe
+from rover_tools.benchmarks.baseline import BaselinePerception
 from rover_tools.benchmarks.curve_plot import Curve, draw_curves
 from rover_tools.cli.errors import run_command
 from rover_tools.evaluation.recordings import data_folder
 from rover_tools.evaluation.results import Result, Truth, score
-from rover_tools.evaluation.scoring import MapScore, score_map
+from rover_tools.evaluation.scoring import score_map
 from rover_tools.runner.run import note, result_folder
 
 CONFIG = PerceptionConfig(image_lag=0)  # recorded images are of the recorded poses
 SEEDS = (1, 2, 3)  # of the canyons, where there is no recorded run
 SHARES = np.arange(1, 17) / 16  # of a cell, along the curves
 
+P = ParamSpec("P")
+T = TypeVar("T")
+
 
 @dataclass(frozen=True)
-class Course:
-    """A recorded or rendered run and what is true of its world."""
+class FrameSequence:
+    """A recorded or rendered run and the truth about its world."""
 
     name: str
     folder: Path
@@ -71,31 +68,31 @@ def _parser() -> argparse.ArgumentParser:
 def _bench(options: argparse.Namespace) -> None:
     cv2.setNumThreads(1)
     folder = result_folder("bench-perception", options.out)
-    courses = [] if options.generated else _recorded_courses()
-    times: dict[str, list[float]] = {}
+    sequences = [] if options.generated else _recorded_sequences()
+    timer = StageTimer()
     rows, curves = [], []
-    for course in courses or _generated_courses(folder, options.seeds):
-        row, ours, reference = _run_course(course, times)
+    for sequence in sequences or _generated_sequences(folder, options.seeds):
+        row, sequence_curves = _run_sequence(sequence, timer)
         rows.append(row)
-        curves += [Curve(course.name, "ours", ours), Curve(course.name, "reference", reference)]
+        curves += sequence_curves
     draw_curves(folder / "curves.png", curves)
-    result = {**_summary_of(times), "courses": rows}
+    result = {**timer.summary(), "sequences": rows}
     (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
     print(json.dumps(result) if options.json else _table(result))
     note(f"curves and figures in {folder}")
 
 
-def _recorded_courses() -> list[Course]:
+def _recorded_sequences() -> list[FrameSequence]:
     """The runs under the data folder for which the truth is known."""
     data = data_folder()
     map_path = data / "udacity" / "calibration_images" / "map_bw.png"
     if not map_path.is_file():
         note(f"no recorded runs in {data}: generated canyons are used instead")
         return []
-    logs = sorted(data.glob("*/*/robot_log.csv"))
+    folders = [log.parent for log in sorted(data.glob("*/*/robot_log.csv"))]
     return [
-        Course(log.parent.name, log.parent, Truth.load(map_path, _samples_beside(log.parent)))
-        for log in logs
+        FrameSequence(folder.name, folder, Truth.load(map_path, _samples_beside(folder)))
+        for folder in folders
     ]
 
 
@@ -104,48 +101,45 @@ def _samples_beside(folder: Path) -> Path | None:
     return next((path for path in candidates if path.is_file()), None)
 
 
-def _generated_courses(folder: Path, seeds: Sequence[int]) -> list[Course]:
+def _generated_sequences(folder: Path, seeds: Sequence[int]) -> list[FrameSequence]:
     from rover_simulator.recordings.recorder import record_drive  # renders: slow to import
 
     note(f"rendering drives through canyons {', '.join(map(str, seeds))}")
     drives = [record_drive(folder / f"canyon-{seed}", seed) for seed in seeds]
     return [
-        Course(drive.folder.name, drive.folder, Truth.load(drive.truth, drive.samples))
+        FrameSequence(drive.folder.name, drive.folder, Truth.load(drive.truth, drive.samples))
         for drive in drives
     ]
 
 
-def _run_course(
-    course: Course, times: dict[str, list[float]]
-) -> tuple[Result, list[MapScore], list[MapScore]]:
-    """Map one course by both; returns the row of the table, and both curves."""
-    core, reference = Perception(CONFIG), ReferenceRecipe()
-    stages = _Stages(times)
-    percept = None
+def _run_sequence(sequence: FrameSequence, timer: StageTimer) -> tuple[Result, list[Curve]]:
+    """Map one sequence with both pipelines; returns the row of the table, and both curves."""
+    core, baseline = Perception(CONFIG, timer), BaselinePerception()
+    result = None
     frames = 0
-    for index, (pose, image) in enumerate(_frames_of(course.folder)):
+    for index, (pose, image) in enumerate(_frames_of(sequence.folder)):
         frame = CameraFrame(1 + index * 40_000_000, pose, image)
-        percept = stages.timed("core", core.process, frame)
-        stages.timed("reference", reference.process, image, pose)
-        stages.run(image, pose)
+        result = timer("core", core.process, frame)
+        if result.map_stamp == frame.stamp:
+            timer("world_map", core.world_map)
+            timer("navigation_map", core.navigation_map)
+        timer("baseline", baseline.process, image, pose)
         frames += 1
-    truth = course.truth.navigable
-    if percept is None or truth is None:
-        raise ValueError(f"{course.folder}: nothing to score")
-    shares, *_ = shares_of(core.evidence, 1.0)
-    theirs = score_map(reference.navigable(), truth)
-    row = {"course": course.name, "frames": frames}
-    row |= score(core.world_map(), percept.rocks, course.truth)
+    truth = sequence.truth.navigable
+    if result is None or truth is None:
+        raise ValueError(f"{sequence.folder}: nothing to score")
+    of_baseline = score_map(baseline.navigable(), truth)
+    row = {"sequence": sequence.name, "frames": frames}
+    row |= score(core.world_map(), result.rocks, sequence.truth)
     row |= {
-        "reference_percent_mapped": round(theirs.percent_mapped, 2),
-        "reference_fidelity": round(theirs.fidelity, 2),
-        "reference_f1": round(theirs.f1, 2),
+        "baseline_percent_mapped": round(of_baseline.percent_mapped, 2),
+        "baseline_fidelity": round(of_baseline.fidelity, 2),
+        "baseline_f1": round(of_baseline.f1, 2),
     }
-    return (
-        row,
-        [score_map(shares >= share, truth) for share in SHARES],
-        [score_map(reference.navigable(share), truth) for share in SHARES],
-    )
+    free = free_shares(core.evidence, 1.0)
+    ours = [score_map(free >= share, truth) for share in SHARES]
+    theirs = [score_map(baseline.navigable(share), truth) for share in SHARES]
+    return row, [Curve(sequence.name, "ours", ours), Curve(sequence.name, "baseline", theirs)]
 
 
 def _frames_of(folder: Path) -> Iterator[tuple[Pose, NDArray[np.uint8]]]:
@@ -155,51 +149,44 @@ def _frames_of(folder: Path) -> Iterator[tuple[Pose, NDArray[np.uint8]]]:
             yield frame.pose, np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
 
 
-class _Stages:
-    """Times [s] by stage; runs each of the core's stages by itself on the same frame."""
+class StageTimer:
+    """A stage runner that measures each call, by the stage's name."""
 
-    def __init__(self, times: dict[str, list[float]]) -> None:
-        self._times = times
-        self._grid = EvidenceGrid(Perception(CONFIG).evidence.geometry, CONFIG.max_range)
+    def __init__(self) -> None:
+        self.seconds: dict[str, list[float]] = {}
 
-    def timed(self, stage: str, function: Callable[..., Any], *arguments: Any) -> Any:
+    def __call__(self, name: str, stage: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
         start = time.perf_counter()
-        value = function(*arguments)
-        self._times.setdefault(stage, []).append(time.perf_counter() - start)
+        value = stage(*args, **kwargs)
+        self.seconds.setdefault(name, []).append(time.perf_counter() - start)
         return value
 
-    def run(self, image: NDArray[np.uint8], pose: Pose) -> None:
-        view = self.timed("view", View.of, ROVER_CAMERA, pose)
-        if not view.usable:
-            return
-        mask = self.timed("rock_mask", rock_mask, image, view)
-        self.timed("rocks", detect_rocks, image, mask, view, pose)
-        columns = self.timed("classes", ground_columns, image, mask, view)
-        self.timed("evidence", self._grid.add, view, columns, pose)
-        self.timed("scan", free_scan, view, columns, CONFIG.max_range)
-
-
-def _summary_of(times: dict[str, list[float]]) -> Result:
-    result: Result = {}
-    for stage, seconds in times.items():
-        p50, p99 = np.percentile(seconds, (50, 99)) * 1000.0
-        result |= {f"{stage}_ms_p50": round(float(p50), 3), f"{stage}_ms_p99": round(float(p99), 3)}
-    return result
+    def summary(self) -> Result:
+        """Median and 99th percentile [ms] of each stage."""
+        result: Result = {}
+        for name, seconds in self.seconds.items():
+            p50, p99 = np.percentile(seconds, (50, 99)) * 1000.0
+            result[f"{name}_ms_p50"] = round(float(p50), 3)
+            result[f"{name}_ms_p99"] = round(float(p99), 3)
+        return result
 
 
 def _table(result: Result) -> str:
-    lines = [f"{'[ms]':12} {'median':>8} {'p99':>8}"]
+    lines = [f"{'[ms]':16} {'median':>8} {'p99':>8}"]
     for key in [key for key in result if key.endswith("_ms_p50")]:
         stage = key.removesuffix("_ms_p50")
-        lines.append(f"{stage:12} {result[key]:8.3f} {result[stage + '_ms_p99']:8.3f}")
-    lines += ["", f"{'course [%]':16} {'mapped':>7} {'fidelity':>8} {'F1':>6}  the usual recipe"]
-    for row in result["courses"]:
+        lines.append(f"{stage:16} {result[key]:8.3f} {result[stage + '_ms_p99']:8.3f}")
+    lines += [
+        "",
+        f"{'sequence [%]':16} {'mapped':>7} {'fidelity':>8} {'F1':>6}  baseline: the same",
+    ]
+    for row in result["sequences"]:
         ours = f"{row['percent_mapped']:7.2f} {row['fidelity']:8.2f} {row['f1']:6.2f}"
         theirs = " ".join(
-            f"{row['reference_' + key]:6.2f}" for key in ("percent_mapped", "fidelity", "f1")
+            f"{row['baseline_' + key]:6.2f}" for key in ("percent_mapped", "fidelity", "f1")
         )
         rocks = f"rocks {row['rocks_located']} of {_sum(row)}, {row['rocks_false']} unlisted"
-        lines.append(f"{row['course']:16} {ours}  {theirs}  {rocks}")
+        lines.append(f"{row['sequence']:16} {ours}  {theirs}  {rocks}")
     return "\n".join(lines)
 
 
