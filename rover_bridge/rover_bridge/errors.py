@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from rover_common.errors import RoverError
 
-class TelemetryError(ValueError):
+
+class TelemetryError(RoverError, ValueError):
     """A telemetry that cannot be used."""
 
     counter = "telemetry_invalid"

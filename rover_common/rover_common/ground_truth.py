@@ -8,8 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.errors import RoverError
 
-class TruthError(ValueError):
+
+class TruthError(RoverError, ValueError):
     """The ground truth cannot be read."""
 
 

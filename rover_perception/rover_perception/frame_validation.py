@@ -7,12 +7,13 @@ import math
 import numpy as np
 
 from rover_common.camera import ROVER_CAMERA
+from rover_common.errors import RoverError
 from rover_common.geometry import Pose
 from rover_common.grid import WORLD_SIZE
 from rover_common.types import CameraFrame
 
 
-class FrameError(ValueError):
+class FrameError(RoverError, ValueError):
     """A frame that cannot be used; its name is its counter."""
 
     counter = "frame_invalid"

@@ -8,13 +8,14 @@ from pathlib import Path
 
 import yaml
 
+from rover_common.errors import RoverError
 from rover_decision.config import DecisionConfig
 
 DEFAULTS = DecisionConfig()
 SYNTAX = "EXPLORER or EXPLORER+WAY_HOME, as in tour or frontier+bearing"
 
 
-class ParametersError(ValueError):
+class ParametersError(RoverError, ValueError):
     """A parameter file that cannot be read."""
 
 

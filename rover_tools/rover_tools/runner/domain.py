@@ -10,11 +10,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from rover_common.errors import RoverError
+
 # Domain d uses UDP ports from 7400 + 250 d; above 101 they reach the ephemeral ports.
 DOMAINS = range(1, 100)
 
 
-class NoFreeDomainError(RuntimeError):
+class NoFreeDomainError(RoverError):
     """Every domain is held by another run."""
 
 

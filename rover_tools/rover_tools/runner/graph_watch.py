@@ -16,11 +16,12 @@ from rclpy.node import Node
 from rover_interfaces.msg import MissionState, RockTrackArray
 
 from rover_common import topics
+from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
 from rover_common.types import GridMap, RockTrack
 
 
-class GraphNotReadyError(RuntimeError):
+class GraphNotReadyError(RoverError):
     """The nodes did not all connect in time."""
 
 

@@ -11,11 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
+from rover_common.errors import RoverError
+
 LOG_LINES = 15  # of a dead process, shown to the user
 STOP_SECONDS = 5.0  # [s] for a clean end after SIGINT
 
 
-class ProcessDiedError(RuntimeError):
+class ProcessDiedError(RoverError):
     """A process of the run ended before it was asked to."""
 
 
