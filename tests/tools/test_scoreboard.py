@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import pickle
 from contextlib import nullcontext
@@ -16,11 +15,18 @@ from tqdm import tqdm
 from rover_common.geometry import Pose
 from rover_simulator.world.generator import world_of_map
 from rover_simulator.world.world import World
-from rover_tools.evaluation.mission_result import RESULT_KEYS, Flight, failed_result, mission_result
-from rover_tools.scoreboard import main as scoreboard
+from rover_tools.cli.commands import scoreboard as command
+from rover_tools.cli.main import main
+from rover_tools.evaluation.mission_result import (
+    RESULT_KEYS,
+    MissionRun,
+    failed_result,
+    mission_result,
+)
+from rover_tools.scoreboard import run as scoreboard
 from rover_tools.scoreboard.errors import ScoreboardError
-from rover_tools.scoreboard.job import Ground, Job, make_jobs, parse_seeds
-from rover_tools.scoreboard.mission_run import ROW_KEYS, Flown, failed_row
+from rover_tools.scoreboard.job import Ground, Job, make_jobs
+from rover_tools.scoreboard.mission_run import ROW_KEYS, CompletedMission, failed_row
 from rover_tools.scoreboard.report import write_report
 from rover_tools.scoreboard.store import Entry, Store
 from rover_tools.scoreboard.table import Share, Spread, as_text, is_home, summaries
@@ -63,61 +69,37 @@ def failed_entry(job: Job) -> Entry:
 # Which missions
 
 
-@pytest.mark.parametrize(
-    ("text", "seeds"),
-    [
-        ("7", [7]),
-        ("1-4", [1, 2, 3, 4]),
-        ("1,5,9", [1, 5, 9]),
-        ("5-6, 1,5", [5, 6, 1]),
-    ],
-)
-def test_seeds(text, seeds):
-    assert parse_seeds(text) == seeds
+@pytest.fixture
+def jobs_of(monkeypatch, tmp_path):
+    """The jobs that a command line asks for."""
+
+    def jobs_of(*arguments: str) -> list[Job]:
+        asked: list[Job] = []
+        monkeypatch.setattr(scoreboard, "run_scoreboard", lambda jobs, *_: asked.extend(jobs))
+        assert main(["scoreboard", *arguments, "--out", str(tmp_path)]) == 0
+        return asked
+
+    return jobs_of
 
 
-@pytest.mark.parametrize("text", ["", "a", "4-1", "1-", "-3", "1,,2", "1-99999999"])
-def test_bad_seeds(text):
-    with pytest.raises(argparse.ArgumentTypeError, match=f"'{text.split(',')[-1]}'|''"):
-        parse_seeds(text)
-
-
-def test_defaults_are_a_few_generated_canyons():
-    jobs = scoreboard._jobs(scoreboard.parser().parse_args([]))
+def test_defaults_are_a_few_generated_canyons(jobs_of):
+    jobs = jobs_of()
     assert [(job.strategy, job.seed, job.group) for job in jobs] == [
-        ("tour", seed, "generated") for seed in (1, 2, 3, 4)
+        ("tour", seed, "generated") for seed in command.DEFAULT_WORLDS
     ]
     assert {(job.fps, job.time_limit, job.size) for job in jobs} == {(25.0, 900.0, 1.0)}
 
 
-def test_worlds_and_map_with_each_strategy(tmp_path, world):
+def test_worlds_and_map_with_each_strategy(tmp_path, world, jobs_of):
     world.save(tmp_path)
     options = ["--map", str(tmp_path / "map.png"), "--seeds", "8,9", "--fps", "12.5"]
     strategies = ["--strategies", "tour,wall_follow_a+bearing,tour+breadcrumbs"]
-    jobs = scoreboard._jobs(scoreboard.parser().parse_args([*options, *strategies]))
-    assert [job.name for job in jobs] == [
+    assert [job.name for job in jobs_of(*options, *strategies)] == [
         "map-8-tour", "map-8-wall_follow_a+bearing", "map-9-tour", "map-9-wall_follow_a+bearing",
     ]  # fmt: skip
-    jobs = scoreboard._jobs(scoreboard.parser().parse_args([*options, "--worlds", "1"]))
-    assert [job.name for job in jobs] == ["generated-1-tour", "map-8-tour", "map-9-tour"]
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["--strategies", "dance"],
-        ["--strategies", "tour+dance"],
-        ["--strategies", ""],
-        ["--fps", "0"],
-        ["--time-limit", "-1"],
-        ["--workers", "0"],
-    ],
-)
-def test_bad_options(arguments, capsys):
-    with pytest.raises(SystemExit) as error:
-        scoreboard.parser().parse_args(arguments)
-    assert error.value.code == 2
-    assert arguments[0] in capsys.readouterr().err
+    assert [job.name for job in jobs_of(*options, "--worlds", "1")] == [
+        "generated-1-tour", "map-8-tour", "map-9-tour",
+    ]  # fmt: skip
 
 
 def test_a_map_travels_as_plain_data(tmp_path, world):
@@ -139,19 +121,19 @@ def test_a_map_travels_as_plain_data(tmp_path, world):
 def test_only_what_is_missing_is_left(tmp_path):
     jobs = [job_of(seed=seed) for seed in (1, 2, 3)]
     store = Store(tmp_path)
-    assert store.left(jobs) == jobs
+    assert store.missing(jobs) == jobs
     store.add(jobs[0], row_of(jobs[0]), PICTURE)
     store.add(jobs[1], failed_row(jobs[1], RuntimeError("no way")), None)
-    assert store.left(jobs) == jobs[1:]  # what failed is tried again
+    assert store.missing(jobs) == jobs[1:]  # what failed is tried again
     store.add(jobs[1], row_of(jobs[1]), PICTURE)
-    assert store.left(jobs) == jobs[2:]
+    assert store.missing(jobs) == jobs[2:]
     assert [entry.name for entry in store.entries()] == [job.name for job in jobs[:2]]
 
 
 def test_a_file_that_was_being_written_does_not_count(tmp_path):
     store = Store(tmp_path)
     (tmp_path / "missions" / ".generated-1-tour.json.77").write_text("{")
-    assert store.left([job_of()]) == [job_of()]
+    assert store.missing([job_of()]) == [job_of()]
 
 
 @pytest.mark.parametrize(
@@ -167,13 +149,13 @@ def test_missions_of_other_settings_are_not_mixed(tmp_path, other):
     store = Store(tmp_path)
     store.add(job_of(), row_of(job_of()), PICTURE)
     with pytest.raises(ScoreboardError, match="choose another --out"):
-        store.left([other])
+        store.missing([other])
 
 
 def test_a_broken_file_is_one_sentence(tmp_path):
     store = Store(tmp_path)
     (tmp_path / "missions" / "generated-1-tour.json").write_text("[]")
-    with pytest.raises(ScoreboardError, match=r"generated-1-tour\.json is no mission"):
+    with pytest.raises(ScoreboardError, match=r"generated-1-tour\.json is not a mission"):
         store.entries()
 
 
@@ -183,7 +165,7 @@ def test_a_broken_file_is_one_sentence(tmp_path):
 def test_the_result_of_a_mission_has_the_same_keys_however_it_ended(world):
     track = np.array([(world.start.x + 3.0, world.start.y + 4.0)])
     result = mission_result(
-        world, "tour", 1, done=False, flight=Flight(60.04, 75.52, 3, 2, track), grid=None,
+        world, "tour", 1, done=False, run=MissionRun(60.04, 75.52, 3, 2, track), grid=None,
         rocks=(), recoveries=1, wall_seconds=9.99,
     )  # fmt: skip
     assert tuple(result) == RESULT_KEYS
@@ -238,7 +220,7 @@ def test_summary_by_hand():
     assert "467 / 300 / 900" in text
 
 
-def test_home_is_where_it_started_whatever_it_says():
+def test_home_is_near_the_start_whatever_the_rover_reports():
     assert is_home(row_of(job_of()))
     assert not is_home(row_of(job_of(), home_distance=2.1))
     assert not is_home(row_of(job_of(), done=False))
@@ -302,25 +284,27 @@ def test_an_empty_report(tmp_path):
 
 @pytest.fixture
 def made_up(monkeypatch):
-    """Missions that are not flown: those of seed 2 raise. The names of those asked for."""
+    """Missions that do not run: those of seed 2 raise. The names of those asked for."""
     monkeypatch.setattr(tqdm, "monitor_interval", 0)  # its thread would outlive the test
     asked: list[str] = []
 
-    def fly_all(_, jobs):
+    def run_all(_, jobs, on_start):
+        on_start("the first missions have started")
         for job in jobs:
             asked.append(job.name)
             good = job.seed != 2
-            yield job, Flown(row_of(job), PICTURE) if good else ValueError("too steep")
+            yield job, CompletedMission(row_of(job), PICTURE) if good else ValueError("too steep")
 
     monkeypatch.setattr(scoreboard, "cluster", lambda *_: nullcontext())
-    monkeypatch.setattr(scoreboard, "fly_all", fly_all)
+    monkeypatch.setattr(scoreboard, "run_all", run_all)
     return asked
 
 
 def test_a_mission_that_raises_is_a_row_and_an_exit_code(tmp_path, made_up, capsys):
-    arguments = ["--worlds", "1-3", "--out", str(tmp_path), "--json"]
-    assert scoreboard.main(arguments) == 1
+    arguments = ["scoreboard", "--worlds", "1-3", "--out", str(tmp_path), "--json"]
+    assert main(arguments) == 1
     output = capsys.readouterr()
+    assert "the first missions have started" in output.err
     rows = json.loads(output.out)
     assert [row["reason"] for row in rows] == ["home", "failed: ValueError: too steep", "home"]
     assert all(set(row) == set(ROW_KEYS) for row in rows)
@@ -328,20 +312,20 @@ def test_a_mission_that_raises_is_a_row_and_an_exit_code(tmp_path, made_up, caps
     assert "too steep" in (tmp_path / "report.html").read_text()
 
 
-def test_a_second_run_flies_what_failed_and_what_is_new(tmp_path, made_up, capsys):
-    assert scoreboard.main(["--worlds", "1,2", "--out", str(tmp_path)]) == 1
+def test_a_second_run_runs_failed_and_new_missions_only(tmp_path, made_up, capsys):
+    assert main(["scoreboard", "--worlds", "1,2", "--out", str(tmp_path)]) == 1
     made_up.clear()
-    assert scoreboard.main(["--worlds", "1-3", "--out", str(tmp_path), "--json"]) == 1
+    assert main(["scoreboard", "--worlds", "1-3", "--out", str(tmp_path), "--json"]) == 1
     assert made_up == ["generated-2-tour", "generated-3-tour"]
     made_up.clear()
     capsys.readouterr()
-    assert scoreboard.main(["--worlds", "1", "--out", str(tmp_path), "--json"]) == 0
+    assert main(["scoreboard", "--worlds", "1", "--out", str(tmp_path), "--json"]) == 0
     assert made_up == []
     output = capsys.readouterr()
     assert [row["seed"] for row in json.loads(output.out)] == [1]  # what was asked for
-    assert "1 flown before" in output.err
+    assert "1 missions, 1 already completed" in output.err
 
 
 def test_the_table_is_printed(tmp_path, made_up, capsys):
-    assert scoreboard.main(["--worlds", "1,3", "--out", str(tmp_path)]) == 0
+    assert main(["scoreboard", "--worlds", "1,3", "--out", str(tmp_path)]) == 0
     assert "2 of 2 (34-100 %)" in capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""The recipe that known programs for this rover use for perception, as a baseline for ours.
+"""The perception of the published programs for this rover, as a baseline.
 
 A fixed warp of four points to a view from above, a brightness threshold, a limit of range, no map
 update of a tilted frame, and counts per cell of 1 m.
@@ -26,7 +26,7 @@ MAX_TILT = math.radians(0.7)
 WORLD = 200
 
 
-class ReferenceRecipe:
+class Baseline:
     """Counts of ground, obstacle and rock pixels per cell, (200, 200, 3) in this order."""
 
     def __init__(self) -> None:
@@ -52,11 +52,11 @@ class ReferenceRecipe:
         return np.hypot(x, y), np.arctan2(y, x)
 
     def navigable(self, share: float | None = None) -> NDArray[np.bool_]:
-        """Cells (200, 200) ever seen as ground, or seen so in at least a share of all looks."""
-        ground, all_looks = self.counts[..., 0], self.counts[..., :2].sum(axis=2)
+        """Cells (200, 200) ever seen as ground, or in at least a share of all observations."""
+        ground, observations = self.counts[..., 0], self.counts[..., :2].sum(axis=2)
         if share is None:
             return np.asarray(ground > 0)
-        return np.asarray((ground > 0) & (ground >= share * all_looks))
+        return np.asarray((ground > 0) & (ground >= share * observations))
 
     def _add(self, layer: int, x: NDArray, y: NDArray, pose: Pose) -> None:
         near = np.hypot(x, y) < MAX_RANGE

@@ -1,4 +1,4 @@
-"""`rover bench perception`: time per frame and map scores, beside the usual recipe's.
+"""Time per frame and map scores of perception, beside those of a baseline.
 
 Runs the core without ROS, in one thread, on recorded runs where there are some, else on drives
 rendered through generated canyons. Reading the images is not counted.
@@ -6,8 +6,6 @@ rendered through generated canyons. Reading the images is not counted.
 
 from __future__ import annotations
 
-import argparse
-import json
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -30,16 +28,14 @@ from rover_perception.mapping.scan import free_scan
 from rover_perception.perception import Perception
 from rover_perception.tracking.rock_detection import detect_rocks
 from rover_simulator.recordings.recording import read_recording
-from rover_tools.benchmarks.baseline import ReferenceRecipe
+from rover_tools.benchmarks.baseline import Baseline
 from rover_tools.benchmarks.curve_plot import Curve, draw_curves
-from rover_tools.cli.errors import run_command
 from rover_tools.evaluation.recordings import data_folder
 from rover_tools.evaluation.results import Result, Truth, score
 from rover_tools.evaluation.scoring import MapScore, score_map
-from rover_tools.runner.run import note, result_folder
+from rover_tools.output import note, print_result, result_folder, write_result
 
 CONFIG = PerceptionConfig(image_lag=0)  # recorded images are of the recorded poses
-SEEDS = (1, 2, 3)  # of the canyons, where there is no recorded run
 SHARES = np.arange(1, 17) / 16  # of a cell, along the curves
 
 
@@ -52,36 +48,21 @@ class Course:
     truth: Truth
 
 
-def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
-    options = _parser().parse_args(arguments)
-    return run_command("bench perception", lambda: _bench(options))
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="rover bench perception", description=__doc__)
-    add = parser.add_argument
-    add("--generated", action="store_true", help="use generated canyons in any case")
-    add("--seeds", type=int, nargs="+", default=SEEDS, help="of those (default: %(default)s)")
-    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
-    add("--json", action="store_true", help="print the result as one JSON object")
-    return parser
-
-
-def _bench(options: argparse.Namespace) -> None:
+def bench(generated: bool, seeds: Sequence[int], out: Path | None, as_json: bool) -> None:
+    """Measure on recorded runs, or on drives through the canyons of the seeds; write and print."""
     cv2.setNumThreads(1)
-    folder = result_folder("bench-perception", options.out)
-    courses = [] if options.generated else _recorded_courses()
+    folder = result_folder("bench-perception", out)
+    courses = [] if generated else _recorded_courses()
     times: dict[str, list[float]] = {}
     rows, curves = [], []
-    for course in courses or _generated_courses(folder, options.seeds):
+    for course in courses or _generated_courses(folder, seeds):
         row, ours, reference = _run_course(course, times)
         rows.append(row)
         curves += [Curve(course.name, "ours", ours), Curve(course.name, "reference", reference)]
     draw_curves(folder / "curves.png", curves)
     result = {**_summary_of(times), "courses": rows}
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
-    print(json.dumps(result) if options.json else _table(result))
+    write_result(folder, result)
+    print_result(result, as_json, _table(result))
     note(f"curves and figures in {folder}")
 
 
@@ -119,7 +100,7 @@ def _run_course(
     course: Course, times: dict[str, list[float]]
 ) -> tuple[Result, list[MapScore], list[MapScore]]:
     """Map one course by both; returns the row of the table, and both curves."""
-    core, reference = Perception(CONFIG), ReferenceRecipe()
+    core, reference = Perception(CONFIG), Baseline()
     stages = _Stages(times)
     percept = None
     frames = 0
@@ -192,7 +173,7 @@ def _table(result: Result) -> str:
     for key in [key for key in result if key.endswith("_ms_p50")]:
         stage = key.removesuffix("_ms_p50")
         lines.append(f"{stage:12} {result[key]:8.3f} {result[stage + '_ms_p99']:8.3f}")
-    lines += ["", f"{'course [%]':16} {'mapped':>7} {'fidelity':>8} {'F1':>6}  the usual recipe"]
+    lines += ["", f"{'course [%]':16} {'mapped':>7} {'fidelity':>8} {'F1':>6}  baseline"]
     for row in result["courses"]:
         ours = f"{row['percent_mapped']:7.2f} {row['fidelity']:8.2f} {row['f1']:6.2f}"
         theirs = " ".join(

@@ -1,4 +1,4 @@
-"""Looks at the running graph from outside: its readiness, its map, its rocks, its state."""
+"""Observes the running graph from outside: its readiness, its map, its rocks, its state."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class GraphWatch:
                 states = [f"{s.name}: {s.message}" for s in self.diagnostics.values()]
                 raise GraphNotReadyError(
                     f"the graph did not connect within {timeout:.0f} s: "
-                    + ("; ".join(states) or "no node was heard of")
+                    + ("; ".join(states) or "no node reported")
                 )
             time.sleep(0.05)
 

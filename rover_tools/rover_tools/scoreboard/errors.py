@@ -1,4 +1,4 @@
-"""What can go wrong with a scoreboard, for the person who started it."""
+"""What can go wrong with a scoreboard."""
 
 from rover_common.errors import RoverError
 

@@ -1,4 +1,4 @@
-"""The benchmark of perception and the recipe it compares with."""
+"""The benchmark of perception and the baseline that it compares with."""
 
 import json
 from functools import partial
@@ -8,8 +8,8 @@ from scene import draw
 
 from rover_common.geometry import Pose
 from rover_simulator.recordings import recorder
-from rover_tools.benchmarks import perception as bench_perception
-from rover_tools.benchmarks.baseline import ReferenceRecipe
+from rover_tools.benchmarks.baseline import Baseline
+from rover_tools.cli.main import main
 
 POSE = Pose(90.0, 100.5, 0.0)
 
@@ -18,11 +18,11 @@ def strip(x, y):
     return (y > 98) & (y < 103)
 
 
-def test_the_recipe_maps_what_is_before_a_level_rover():
-    recipe = ReferenceRecipe()
-    ranges, bearings = recipe.process(draw(POSE, strip), POSE)
+def test_the_baseline_maps_the_ground_ahead_of_a_level_rover():
+    baseline = Baseline()
+    ranges, bearings = baseline.process(draw(POSE, strip), POSE)
     assert len(ranges) == len(bearings) > 100
-    rows, cols = np.nonzero(recipe.navigable())
+    rows, cols = np.nonzero(baseline.navigable())
     assert {92, 93} <= set(cols.tolist())
     assert rows.min() >= 97
     assert rows.max() <= 103
@@ -30,18 +30,27 @@ def test_the_recipe_maps_what_is_before_a_level_rover():
     assert (cols <= 95).all()
 
 
-def test_the_recipe_maps_nothing_when_tilted():
-    recipe = ReferenceRecipe()
+def test_the_baseline_maps_nothing_when_tilted():
+    baseline = Baseline()
     tilted = Pose(90.0, 100.5, 0.0, pitch=0.02)
-    recipe.process(draw(tilted, strip), tilted)
-    assert not recipe.navigable().any()
+    baseline.process(draw(tilted, strip), tilted)
+    assert not baseline.navigable().any()
 
 
 def test_the_benchmark_has_times_and_scores_of_both(tmp_path, monkeypatch, capsys):
     whole_drive = recorder.record_drive
     monkeypatch.setattr(recorder, "record_drive", partial(whole_drive, frames=25))
-    arguments = ["--generated", "--seeds", "1", "--json", "--out", str(tmp_path)]
-    assert bench_perception.main(arguments) == 0
+    arguments = [
+        "bench",
+        "perception",
+        "--generated",
+        "--seeds",
+        "1",
+        "--json",
+        "--out",
+        str(tmp_path),
+    ]
+    assert main(arguments) == 0
     result = json.loads(capsys.readouterr().out.splitlines()[0])
     assert 0 < result["core_ms_p50"] <= result["core_ms_p99"]
     assert result["reference_ms_p50"] > 0
