@@ -94,7 +94,7 @@ def test_what_is_no_interpreter_is_told(machine, python):
 
 
 def test_an_interpreter_of_another_version_is_told(machine):
-    machine.fake("python3", 'echo Python 3.9')
+    machine.fake("python3", "echo Python 3.9")
     done = machine.rover("build", PYTHON="python3")
     assert done.returncode == 1
     assert done.stderr == "rover: PYTHON=python3 is Python 3.9; 3.11 or 3.12 is needed\n"
