@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # make_underlay.sh VENV: let a venv that holds the ros-jazzy-* wheels be sourced like /opt/ros/jazzy.
-# Can be run again at any time.
+# Can be run again at any time; the path may hold blanks.
 set -euo pipefail
 venv=$(cd "$1" && pwd)
 
 # The wheels' CMake files name directories of the machine that they were built on.
 include=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("include"))')
 numpy=$("$venv/bin/python" -c 'import numpy; print(numpy.get_include())')
-{ grep -rlE '/opt/python/cp[0-9]+-cp[0-9]+/' "$venv"/share/*/cmake || true; } | xargs -r sed -i -E \
+{ grep -rlZE '/opt/python/cp[0-9]+-cp[0-9]+/' "$venv"/share/*/cmake || true; } | xargs -0r sed -i -E \
   -e "s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$include#g" \
   -e "s#/opt/python/cp[0-9]+-cp[0-9]+/lib/python3\.[0-9]+/site-packages/numpy/_core/include#$numpy#g"
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+from rover_common.errors import RoverError
 
-class TelemetryError(ValueError):
+
+class TelemetryError(RoverError, ValueError):
     """A telemetry that cannot be used."""
 
     counter: ClassVar[str]  # in /diagnostics

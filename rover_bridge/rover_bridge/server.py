@@ -18,13 +18,14 @@ import socketio
 from eventlet.hubs import trampoline
 
 from rover_bridge.legacy_engineio import DualProtocolServer, accept_legacy_queries
+from rover_common.errors import RoverError
 
 MAX_MESSAGE_BYTES = 16 * 2**20  # a telemetry has about 10 kB; the library's default is 1 MB
 PING_TIMEOUT = 60.0  # [s] sent to the simulator, which ignores it
 STOP_SECONDS = 5.0  # [s] until the thread has ended
 
 
-class PortInUseError(OSError):
+class PortInUseError(RoverError, OSError):
     """Another program listens on the port."""
 
 

@@ -8,12 +8,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.errors import RoverError
 from rover_common.grid import GridGeometry
 
 CELLS = GridGeometry.of_world(1.0)
 
 
-class TruthError(ValueError):
+class TruthError(RoverError, ValueError):
     """The ground truth cannot be read."""
 
 

@@ -7,11 +7,12 @@ import math
 import numpy as np
 
 from rover_common.camera import PinholeCamera
+from rover_common.errors import RoverError
 from rover_common.geometry import Pose
 from rover_common.types import CameraFrame
 
 
-class FrameError(ValueError):
+class FrameError(RoverError, ValueError):
     """A frame that cannot be used; `counter` names the diagnostic that counts it."""
 
     counter = "frame_invalid"

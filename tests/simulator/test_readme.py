@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
+import click
 import pytest
 from telemetry import telemetry
 
-from rover_simulator.main import option_parser
+from rover_simulator.main import command
 from rover_simulator.wire.unity_client import ANSWERED_EVENTS
 
 README = Path(__file__).resolve().parents[2] / "rover_simulator" / "README.md"
-NO_DEFAULT = {"none": (None, float("inf")), "off": (False,)}
+NO_DEFAULT = {"none": None, "off": False}
 
 
 def table(heading: str, first: str) -> list[list[str]]:
@@ -27,9 +27,8 @@ def table(heading: str, first: str) -> list[list[str]]:
     return rows[2:]
 
 
-def options() -> dict[str, argparse.Action]:
-    actions = option_parser()._actions
-    return {action.option_strings[-1]: action for action in actions if action.dest != "help"}
+def options() -> dict[str, click.Parameter]:
+    return {parameter.opts[-1]: parameter for parameter in command.params}
 
 
 def test_each_option_is_in_the_table_and_the_other_way_round():
@@ -40,11 +39,12 @@ def test_each_option_is_in_the_table_and_the_other_way_round():
 @pytest.mark.parametrize("name", options())
 def test_each_default_is_the_programs(name):
     (row,) = [row for row in table("Options of `rover sim`", "option") if row[0] == f"`{name}`"]
-    written, default = row[2], options()[name].default
+    written, parameter = row[2], options()[name]
     if written in NO_DEFAULT:
-        assert default in NO_DEFAULT[written]
+        values = command.make_context("sim", []).params
+        assert values[parameter.name] == NO_DEFAULT[written]
     else:
-        assert written == f"`{default}`"
+        assert written == f"`{parameter.default}`"
 
 
 def test_the_telemetrys_keys_are_those_sent_in_their_order():

@@ -9,9 +9,9 @@ from rover_common.geometry import Pose
 from rover_common.vehicle import PICKUP_SECONDS
 from rover_simulator.world.generator import generate_world
 from rover_simulator.world.world import World
-from rover_tools.benchmarks.top_speed import leg_seconds
-from rover_tools.evaluation.oracle import SIGHT, oracle_tour
-from rover_tools.evaluation.oracle_ground import OracleGround
+from rover_tools.evaluation.oracle.ground import OracleGround
+from rover_tools.evaluation.oracle.top_speed import leg_seconds
+from rover_tools.evaluation.oracle.tour import SIGHT, oracle_tour
 
 
 def world_of(*rooms: tuple[slice, slice], start: tuple[float, float], samples=()) -> World:
@@ -29,11 +29,11 @@ def corridor(length: int, samples=()) -> World:
 def hand_made_leg(metres: float) -> float:
     """By the vehicle's constants: dv/dt = 0.852 - 0.0574 v up to 5 m/s, then 7 m/s^2 of brake."""
     drive, coast, top, brake = 0.852, 0.0574, 5.0, 7.0
-    gathering = -math.log(1 - top * coast / drive) / coast
-    way = (drive * gathering - top) / coast
-    losing = math.log(1 + top * coast / brake) / coast
-    stop = (top - brake * losing) / coast
-    return gathering + losing + (metres - way - stop) / top
+    accelerating = -math.log(1 - top * coast / drive) / coast
+    distance = (drive * accelerating - top) / coast
+    braking = math.log(1 + top * coast / brake) / coast
+    stop = (top - brake * braking) / coast
+    return accelerating + braking + (metres - distance - stop) / top
 
 
 @pytest.mark.parametrize("metres", [30.0, 100.0, 400.0])
@@ -86,10 +86,10 @@ def test_ground_out_of_reach_does_not_count():
     assert there.metres == 0.0
 
 
-def test_ways_do_not_cut_corners():
+def test_paths_do_not_cut_corners():
     arms = (np.s_[50:51, 20:26], np.s_[50:56, 25:26])
     ground = OracleGround(world_of(*arms, start=(20.5, 50.5)).navigable, (20.5, 50.5))
-    metres, _ = ground.ways_from([ground.nearest((20.5, 50.5))])
+    metres, _ = ground.paths_from([ground.nearest((20.5, 50.5))])
     assert metres[0, ground.nearest((25.5, 55.5))] == pytest.approx(10.0)
 
 

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from rover_tools.runner.domain import reserved_domain
+from rover_tools.runner.domain import DomainError, reserved_domain
 from rover_tools.runner.processes import ProcessDiedError, Processes
 
 WAIT = 10.0  # [s]
@@ -62,3 +62,10 @@ def test_a_chosen_domain_is_kept(monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "42")
     with reserved_domain() as domain:
         assert domain == 42
+
+
+@pytest.mark.parametrize("text", ["east", "-1", "233"])
+def test_a_domain_that_there_is_not_is_one_line(monkeypatch, text):
+    monkeypatch.setenv("ROS_DOMAIN_ID", text)
+    with pytest.raises(DomainError, match=f"ROS_DOMAIN_ID={text} is no domain"), reserved_domain():
+        pass

@@ -1,36 +1,31 @@
-"""The scoreboard's parts: which missions, what is kept, the table, the report."""
+"""The scoreboard: which missions, what is kept, the command with missions made up."""
 
 from __future__ import annotations
 
-import argparse
 import json
 import pickle
 from contextlib import nullcontext
-from html.parser import HTMLParser
 
-import cv2
 import numpy as np
 import pytest
+from scoreboard_rows import PICTURE, job_of, row_of
 from tqdm import tqdm
 
 from rover_common.geometry import Pose
 from rover_simulator.world.generator import world_of_map
 from rover_simulator.world.world import World
-from rover_tools.evaluation.mission_result import RESULT_KEYS, Flight, failed_result, mission_result
-from rover_tools.scoreboard import main as scoreboard
+from rover_tools.cli.commands import scoreboard as command
+from rover_tools.cli.main import main
+from rover_tools.evaluation.mission_result import (
+    RESULT_KEYS,
+    MissionRun,
+    mission_result,
+)
+from rover_tools.scoreboard import run as scoreboard
 from rover_tools.scoreboard.errors import ScoreboardError
-from rover_tools.scoreboard.job import Ground, Job, make_jobs, parse_seeds
-from rover_tools.scoreboard.mission_run import ROW_KEYS, Flown, failed_row
-from rover_tools.scoreboard.report import write_report
-from rover_tools.scoreboard.store import Entry, Store
-from rover_tools.scoreboard.table import Share, Spread, as_text, is_home, summaries
-
-PICTURE = cv2.imencode(".png", np.zeros((4, 4, 3), np.uint8))[1].tobytes()
-
-
-def job_of(strategy="tour", seed=1, **changes) -> Job:
-    values = {"ground": None, "size": 0.4, "fps": 12.5, "time_limit": 900.0} | changes
-    return Job(strategy, seed, **values)
+from rover_tools.scoreboard.job import Ground, Job, make_jobs
+from rover_tools.scoreboard.mission_run import ROW_KEYS, CompletedMission, failed_row
+from rover_tools.scoreboard.store import Store
 
 
 @pytest.fixture
@@ -41,83 +36,40 @@ def world() -> World:
     return World("drawn", navigable, samples, Pose(100.0, 100.0, 0.0))
 
 
-def row_of(job: Job, **changes) -> dict:
-    """A mission that came home with everything in 200 s."""
-    row = failed_result(job.world_name, job.strategy, job.seed, "")
-    row |= {
-        "done": True, "reason": "home", "time": 200.0, "percent_mapped": 98.0, "fidelity": 96.0,
-        "f1": 97.0, "samples_collected": 6, "samples_total": 6, "home_distance": 1.5,
-        "distance": 400.0, "contacts": 1, "recoveries": 2, "oracle_time": 100.0,
-    }  # fmt: skip
-    return row | changes
-
-
-def entry_of(job: Job, **changes) -> Entry:
-    return Entry(job.name, job.settings(), False, row_of(job, **changes))
-
-
-def failed_entry(job: Job) -> Entry:
-    return Entry(job.name, job.settings(), True, failed_row(job, RuntimeError("no way")))
-
-
 # Which missions
 
 
-@pytest.mark.parametrize(
-    ("text", "seeds"),
-    [
-        ("7", [7]),
-        ("1-4", [1, 2, 3, 4]),
-        ("1,5,9", [1, 5, 9]),
-        ("5-6, 1,5", [5, 6, 1]),
-    ],
-)
-def test_seeds(text, seeds):
-    assert parse_seeds(text) == seeds
+@pytest.fixture
+def jobs_of(monkeypatch, tmp_path):
+    """The jobs that a command line asks for."""
+
+    def jobs_of(*arguments: str) -> list[Job]:
+        asked: list[Job] = []
+        monkeypatch.setattr(scoreboard, "run_scoreboard", lambda jobs, *_: asked.extend(jobs))
+        assert main(["scoreboard", *arguments, "--out", str(tmp_path)]) == 0
+        return asked
+
+    return jobs_of
 
 
-@pytest.mark.parametrize("text", ["", "a", "4-1", "1-", "-3", "1,,2", "1-99999999"])
-def test_bad_seeds(text):
-    with pytest.raises(argparse.ArgumentTypeError, match=f"'{text.split(',')[-1]}'|''"):
-        parse_seeds(text)
-
-
-def test_defaults_are_a_few_generated_canyons():
-    jobs = scoreboard._jobs(scoreboard.parser().parse_args([]))
+def test_defaults_are_a_few_generated_canyons(jobs_of):
+    jobs = jobs_of()
     assert [(job.strategy, job.seed, job.group) for job in jobs] == [
-        ("tour", seed, "generated") for seed in (1, 2, 3, 4)
+        ("tour", seed, "generated") for seed in command.DEFAULT_WORLDS
     ]
     assert {(job.fps, job.time_limit, job.size) for job in jobs} == {(25.0, 900.0, 1.0)}
 
 
-def test_worlds_and_map_with_each_strategy(tmp_path, world):
+def test_worlds_and_map_with_each_strategy(tmp_path, world, jobs_of):
     world.save(tmp_path)
     options = ["--map", str(tmp_path / "map.png"), "--seeds", "8,9", "--fps", "12.5"]
     strategies = ["--strategies", "tour,wall_follow_a+bearing,tour+breadcrumbs"]
-    jobs = scoreboard._jobs(scoreboard.parser().parse_args([*options, *strategies]))
-    assert [job.name for job in jobs] == [
+    assert [job.name for job in jobs_of(*options, *strategies)] == [
         "map-8-tour", "map-8-wall_follow_a+bearing", "map-9-tour", "map-9-wall_follow_a+bearing",
     ]  # fmt: skip
-    jobs = scoreboard._jobs(scoreboard.parser().parse_args([*options, "--worlds", "1"]))
-    assert [job.name for job in jobs] == ["generated-1-tour", "map-8-tour", "map-9-tour"]
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["--strategies", "dance"],
-        ["--strategies", "tour+dance"],
-        ["--strategies", ""],
-        ["--fps", "0"],
-        ["--time-limit", "-1"],
-        ["--workers", "0"],
-    ],
-)
-def test_bad_options(arguments, capsys):
-    with pytest.raises(SystemExit) as error:
-        scoreboard.parser().parse_args(arguments)
-    assert error.value.code == 2
-    assert arguments[0] in capsys.readouterr().err
+    assert [job.name for job in jobs_of(*options, "--worlds", "1")] == [
+        "generated-1-tour", "map-8-tour", "map-9-tour",
+    ]  # fmt: skip
 
 
 def test_a_map_travels_as_plain_data(tmp_path, world):
@@ -139,19 +91,19 @@ def test_a_map_travels_as_plain_data(tmp_path, world):
 def test_only_what_is_missing_is_left(tmp_path):
     jobs = [job_of(seed=seed) for seed in (1, 2, 3)]
     store = Store(tmp_path)
-    assert store.left(jobs) == jobs
+    assert store.missing(jobs) == jobs
     store.add(jobs[0], row_of(jobs[0]), PICTURE)
     store.add(jobs[1], failed_row(jobs[1], RuntimeError("no way")), None)
-    assert store.left(jobs) == jobs[1:]  # what failed is tried again
+    assert store.missing(jobs) == jobs[1:]  # what failed is tried again
     store.add(jobs[1], row_of(jobs[1]), PICTURE)
-    assert store.left(jobs) == jobs[2:]
+    assert store.missing(jobs) == jobs[2:]
     assert [entry.name for entry in store.entries()] == [job.name for job in jobs[:2]]
 
 
 def test_a_file_that_was_being_written_does_not_count(tmp_path):
     store = Store(tmp_path)
     (tmp_path / "missions" / ".generated-1-tour.json.77").write_text("{")
-    assert store.left([job_of()]) == [job_of()]
+    assert store.missing([job_of()]) == [job_of()]
 
 
 @pytest.mark.parametrize(
@@ -167,13 +119,13 @@ def test_missions_of_other_settings_are_not_mixed(tmp_path, other):
     store = Store(tmp_path)
     store.add(job_of(), row_of(job_of()), PICTURE)
     with pytest.raises(ScoreboardError, match="choose another --out"):
-        store.left([other])
+        store.missing([other])
 
 
 def test_a_broken_file_is_one_sentence(tmp_path):
     store = Store(tmp_path)
     (tmp_path / "missions" / "generated-1-tour.json").write_text("[]")
-    with pytest.raises(ScoreboardError, match=r"generated-1-tour\.json is no mission"):
+    with pytest.raises(ScoreboardError, match=r"generated-1-tour\.json is not a mission"):
         store.entries()
 
 
@@ -183,7 +135,7 @@ def test_a_broken_file_is_one_sentence(tmp_path):
 def test_the_result_of_a_mission_has_the_same_keys_however_it_ended(world):
     track = np.array([(world.start.x + 3.0, world.start.y + 4.0)])
     result = mission_result(
-        world, "tour", 1, done=False, flight=Flight(60.04, 75.52, 3, 2, track), grid=None,
+        world, "tour", 1, done=False, run=MissionRun(60.04, 75.52, 3, 2, track), grid=None,
         rocks=(), recoveries=1, wall_seconds=9.99,
     )  # fmt: skip
     assert tuple(result) == RESULT_KEYS
@@ -193,134 +145,32 @@ def test_the_result_of_a_mission_has_the_same_keys_however_it_ended(world):
     assert tuple(failed_row(job_of(), RuntimeError("no way"))) == ROW_KEYS
 
 
-# The table
-
-
-def test_wilson_interval_by_hand():
-    # p = 1/2, n = 4, z = 1.96: half width z sqrt(p (1 - p) / n + z^2 / 4 n^2) / (1 + z^2 / n)
-    share = Share.of([True, False, True, False])
-    assert (share.count, share.total) == (2, 4)
-    assert (share.low, share.high) == (
-        pytest.approx(0.150, abs=1e-3),
-        pytest.approx(0.850, abs=1e-3),
-    )
-    # p = 1: from n / (n + z^2) to 1
-    assert Share.of([True] * 40).low == pytest.approx(40 / (40 + 1.96**2), abs=1e-3)
-    assert str(Share.of([True] * 40)) == "40 of 40 (91-100 %)"
-
-
-def test_spread_leaves_out_what_is_not_known():
-    assert Spread.of([4.0, None, 1.0, 1.0], max) == Spread(2.0, 1.0, 4.0)
-    assert Spread.of([4.0, 1.0, 1.0], min).worst == 1.0
-
-
-def test_summary_by_hand():
-    rows = [
-        entry_of(job_of(seed=1)),
-        entry_of(job_of(seed=2), time=300.0, percent_mapped=90.0, samples_collected=5),
-        entry_of(job_of(seed=3), done=False, reason="the time is up", time=900.0),
-        failed_entry(job_of(seed=4)),
-        entry_of(job_of("frontier", seed=1), time=250.0),
-    ]
-    frontier, tour = summaries(rows)
-    assert (frontier.strategy, tour.strategy) == ("frontier", "tour")
-    assert (tour.missions, tour.failed) == (4, 1)
-    assert (tour.home.count, tour.home.total) == (2, 4)
-    assert (tour.all_samples.count, tour.all_samples.total) == (2, 4)
-    assert (tour.time.median, tour.time.worst) == (300.0, 900.0)
-    assert tour.time.mean == pytest.approx(1400 / 3)
-    assert (tour.mapped.median, tour.mapped.worst) == (98.0, 90.0)
-    assert (tour.oracle_ratio.mean, tour.oracle_ratio.worst) == (2.5, 3.0)  # of those at home
-    assert (tour.contacts.mean, tour.recoveries.mean) == (1.0, 2.0)
-    text = as_text([frontier, tour])
-    assert "2 of 4 (15-85 %)" in text
-    assert "4, 1 failed" in text
-    assert "467 / 300 / 900" in text
-
-
-def test_home_is_where_it_started_whatever_it_says():
-    assert is_home(row_of(job_of()))
-    assert not is_home(row_of(job_of(), home_distance=2.1))
-    assert not is_home(row_of(job_of(), done=False))
-    assert not is_home(failed_entry(job_of()).result)
-
-
-def test_groups_are_apart():
-    ground = Ground("drawn", (200, 200), b"\xff" * 5000)
-    rows = [entry_of(job_of()), entry_of(job_of(ground=ground))]
-    assert [(row.group, row.missions) for row in summaries(rows)] == [
-        ("drawn", 1),
-        ("generated", 1),
-    ]
-
-
-# The report
-
-
-class Page(HTMLParser):
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.links: list[str] = []
-        self.text = ""
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        self.links += [value for key, value in attributes if key in ("src", "href")]
-
-    def handle_data(self, data):
-        self.text += data
-
-
-def test_the_report_has_every_mission_and_its_picture_and_nothing_from_outside(tmp_path):
-    store = Store(tmp_path)
-    jobs = [job_of("tour"), job_of("frontier+bearing", seed=2)]
-    for job in jobs:
-        store.add(job, row_of(job), PICTURE)
-    bad = job_of(seed=3)
-    store.add(bad, failed_row(bad, RuntimeError("lost <its> way")), None)
-    entries = store.entries()
-    write_report(tmp_path, entries, summaries(entries))
-    text = (tmp_path / "report.html").read_text()
-    page = Page(text)
-    for name in ("seed-1", "seed-2", "seed-3", "failed: RuntimeError: lost <its> way"):
-        assert name in page.text
-    assert "100 %)" in page.text
-    assert len(page.links) == 4  # a picture and the link to it, of two missions
-    for link in page.links:
-        path = tmp_path / link.replace("%2B", "+")
-        assert path.is_file(), link
-    assert "http" not in text
-
-
-def test_an_empty_report(tmp_path):
-    write_report(tmp_path, [], [])
-    assert "0 missions" in (tmp_path / "report.html").read_text()
-
-
 # The command, with missions made up
 
 
 @pytest.fixture
 def made_up(monkeypatch):
-    """Missions that are not flown: those of seed 2 raise. The names of those asked for."""
+    """Missions that do not run: those of seed 2 raise. The names of those asked for."""
     monkeypatch.setattr(tqdm, "monitor_interval", 0)  # its thread would outlive the test
     asked: list[str] = []
 
-    def fly_all(_, jobs):
+    def run_all(_, jobs, on_start):
+        on_start("the first missions have started")
         for job in jobs:
             asked.append(job.name)
             good = job.seed != 2
-            yield job, Flown(row_of(job), PICTURE) if good else ValueError("too steep")
+            yield job, CompletedMission(row_of(job), PICTURE) if good else ValueError("too steep")
 
     monkeypatch.setattr(scoreboard, "cluster", lambda *_: nullcontext())
-    monkeypatch.setattr(scoreboard, "fly_all", fly_all)
+    monkeypatch.setattr(scoreboard, "run_all", run_all)
     return asked
 
 
 def test_a_mission_that_raises_is_a_row_and_an_exit_code(tmp_path, made_up, capsys):
-    arguments = ["--worlds", "1-3", "--out", str(tmp_path), "--json"]
-    assert scoreboard.main(arguments) == 1
+    arguments = ["scoreboard", "--worlds", "1-3", "--out", str(tmp_path), "--json"]
+    assert main(arguments) == 1
     output = capsys.readouterr()
+    assert "the first missions have started" in output.err
     rows = json.loads(output.out)
     assert [row["reason"] for row in rows] == ["home", "failed: ValueError: too steep", "home"]
     assert all(set(row) == set(ROW_KEYS) for row in rows)
@@ -328,20 +178,20 @@ def test_a_mission_that_raises_is_a_row_and_an_exit_code(tmp_path, made_up, caps
     assert "too steep" in (tmp_path / "report.html").read_text()
 
 
-def test_a_second_run_flies_what_failed_and_what_is_new(tmp_path, made_up, capsys):
-    assert scoreboard.main(["--worlds", "1,2", "--out", str(tmp_path)]) == 1
+def test_a_second_run_runs_failed_and_new_missions_only(tmp_path, made_up, capsys):
+    assert main(["scoreboard", "--worlds", "1,2", "--out", str(tmp_path)]) == 1
     made_up.clear()
-    assert scoreboard.main(["--worlds", "1-3", "--out", str(tmp_path), "--json"]) == 1
+    assert main(["scoreboard", "--worlds", "1-3", "--out", str(tmp_path), "--json"]) == 1
     assert made_up == ["generated-2-tour", "generated-3-tour"]
     made_up.clear()
     capsys.readouterr()
-    assert scoreboard.main(["--worlds", "1", "--out", str(tmp_path), "--json"]) == 0
+    assert main(["scoreboard", "--worlds", "1", "--out", str(tmp_path), "--json"]) == 0
     assert made_up == []
     output = capsys.readouterr()
     assert [row["seed"] for row in json.loads(output.out)] == [1]  # what was asked for
-    assert "1 flown before" in output.err
+    assert "1 missions, 1 already completed" in output.err
 
 
 def test_the_table_is_printed(tmp_path, made_up, capsys):
-    assert scoreboard.main(["--worlds", "1,3", "--out", str(tmp_path)]) == 0
+    assert main(["scoreboard", "--worlds", "1,3", "--out", str(tmp_path)]) == 0
     assert "2 of 2 (34-100 %)" in capsys.readouterr().out

@@ -19,11 +19,11 @@ TINY = ("--size", "0.4", "--fps", "12.5", "--time-limit", "1")
 DEADLINE = 100.0  # [s]
 
 ONE_OF_TWO_RAISES = """
-from rover_tools.scoreboard.cluster import fly_all, local_cluster
+from rover_tools.scoreboard.cluster import local_cluster, run_all
 from rover_tools.scoreboard.job import Job
 
 
-def fly(job):
+def run(job):
     if job.seed == 1:
         raise ValueError("too steep")
     return job.name
@@ -32,7 +32,7 @@ def fly(job):
 if __name__ == "__main__":
     jobs = [Job("tour", seed, None, 0.4, 12.5, 0.5) for seed in (1, 2)]
     with local_cluster(1) as client:
-        for job, outcome in fly_all(client, jobs, fly):
+        for job, outcome in run_all(client, jobs, run):
             print(job.seed, repr(outcome))
 """
 
@@ -66,10 +66,10 @@ def test_ctrl_c_and_on_again(tmp_path):
     os.killpg(run.pid, signal.SIGINT)  # as a terminal sends it: to the workers as well
     _, said = run.communicate(timeout=DEADLINE)
     assert run.returncode == 130, said
-    assert f"to go on, run it again with --out {tmp_path}" in said
+    assert f"to continue, run it again with --out {tmp_path}" in said
     assert "Traceback" not in said
-    flown = {path: path.stat().st_mtime_ns for path in missions.glob("*.json")}
-    assert 1 <= len(flown) < 3
+    completed = {path: path.stat().st_mtime_ns for path in missions.glob("*.json")}
+    assert 1 <= len(completed) < 3
 
     run = start("--worlds", "1-2", "--workers", "2", *TINY, "--out", str(tmp_path), "--json")
     output, said = run.communicate(timeout=DEADLINE)
@@ -83,7 +83,7 @@ def test_ctrl_c_and_on_again(tmp_path):
         assert row["time"] == 1.0
         assert row["percent_mapped"] > 0
         assert row["oracle_time"] > 10
-    assert all(path.stat().st_mtime_ns == when for path, when in flown.items())
+    assert all(path.stat().st_mtime_ns == when for path, when in completed.items())
     for row in rows:
         picture = missions / f"generated-{row['seed']}-tour.png"
         assert cv2.imread(str(picture)) is not None

@@ -1,13 +1,12 @@
 """Strategies by name, and from parameter files."""
 
-import argparse
 from pathlib import Path
 
 import pytest
 
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_tools.cli.mission import parser
-from rover_tools.evaluation.strategy import ParametersError, Strategy, choices
+from rover_tools.cli.commands import mission, scoreboard
+from rover_tools.evaluation.strategy import ParametersError, Strategy, StrategyError, choices
 
 SHIPPED = Path(__file__).resolve().parents[2] / "rover_bringup" / "config" / "rover.yaml"
 
@@ -24,7 +23,7 @@ def test_a_name_and_back():
 
 @pytest.mark.parametrize("text", ["", "dance", "tour+", "tour+dance", "+bearing"])
 def test_a_name_that_there_is_not(text):
-    with pytest.raises(argparse.ArgumentTypeError, match="there are"):
+    with pytest.raises(StrategyError, match="there are"):
         Strategy.parse(text)
 
 
@@ -42,8 +41,22 @@ def test_of_other_parameters(tmp_path):
         Strategy.of_parameters(path)
 
 
+def test_broken_yaml_is_one_line(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text("a: [1\nb: 2\n")
+    with pytest.raises(ParametersError) as error:
+        Strategy.of_parameters(path)
+    assert "\n" not in str(error.value)
+
+
 def test_a_mission_takes_a_strategy_by_either_name():
     for option in ("--explorer", "--strategy"):
-        options = parser("mission", "").parse_args([option, "wall_follow_b+bearing"])
-        assert options.strategy == Strategy("wall_follow_b", "bearing")
-    assert parser("mission", "").parse_args([]).strategy is None
+        chosen = mission.command.make_context("mission", [option, "wall_follow_b+bearing"])
+        assert chosen.params["strategy"] == Strategy("wall_follow_b", "bearing")
+    assert mission.command.make_context("mission", []).params["strategy"] is None
+
+
+def test_the_scoreboards_default_is_the_default_strategy():
+    assert scoreboard.command.make_context("scoreboard", []).params["strategies"] == (
+        str(Strategy()),
+    )

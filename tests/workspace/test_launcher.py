@@ -27,6 +27,7 @@ class Machine:
         self.bin = folder / "bin"
         self.bin.mkdir(parents=True)
         shutil.copytree(ROOT / "wheels", self.root / "wheels")
+        shutil.copytree(ROOT / "rover_tools" / "help", self.root / "rover_tools" / "help")
         shutil.copy(ROOT / "rover", self.root / "rover")
         for tool in (*TOOLS, *BUILD_TOOLS):
             found = shutil.which(tool)
@@ -37,7 +38,7 @@ class Machine:
         (self.bin / tool).unlink()
 
     def fake(self, tool: str, script: str) -> None:
-        (self.bin / tool).unlink()
+        (self.bin / tool).unlink(missing_ok=True)
         (self.bin / tool).write_text(f"#!/bin/sh\n{script}\n")
         (self.bin / tool).chmod(0o755)
 
@@ -82,11 +83,27 @@ def test_a_missing_tool_is_one_sentence(machine, tool, sentence):
     assert not (machine.root / ".venv").exists()
 
 
-def test_a_wrong_python_is_one_sentence(machine):
-    done = machine.rover("build", PYTHON="/bin/false")
+@pytest.mark.parametrize("python", ["foo", "/bin/false", "/bin/echo", "a b"])
+def test_what_is_no_interpreter_is_told(machine, python):
+    done = machine.rover("build", PYTHON=python)
     assert done.returncode == 1
-    assert done.stderr.startswith("rover: no Python 3.11 or 3.12 here")
-    assert done.stderr.count("\n") == 1
+    assert done.stderr == (
+        f"rover: PYTHON={python} is not an interpreter that runs; "
+        "name Python 3.11 or 3.12, or unset PYTHON\n"
+    )
+
+
+def test_an_interpreter_of_another_version_is_told(machine):
+    machine.fake("python3", "echo Python 3.9")
+    done = machine.rover("build", PYTHON="python3")
+    assert done.returncode == 1
+    assert done.stderr == "rover: PYTHON=python3 is Python 3.9; 3.11 or 3.12 is needed\n"
+
+
+def test_no_interpreter_is_told(machine):
+    done = machine.rover("build", PYTHON="")
+    assert done.returncode == 1
+    assert done.stderr.startswith("rover: no Python 3.11 or 3.12 here; install one")
 
 
 def test_a_full_disk_is_one_sentence(machine):
@@ -129,8 +146,47 @@ def test_the_wheels_of_another_checkout_are_no_installation(machine):
     assert "ROS 2 Jazzy, sourced" in machine.rover("doctor", **sourced).stdout
 
 
-def test_help_and_unknown_commands(machine):
-    assert "usage: ./rover COMMAND" in machine.rover("--help").stdout
-    done = machine.rover("dance")
+@pytest.mark.parametrize(
+    ("arguments", "page"),
+    [
+        ((), "rover"),
+        (("--help",), "rover"),
+        (("help",), "rover"),
+        (("mission", "--help"), "rover-mission"),
+        (("mission", "--seed", "3", "-h"), "rover-mission"),
+        (("help", "mission"), "rover-mission"),
+        (("bench", "--help"), "rover-bench"),
+        (("bench", "graph", "--help"), "rover-bench-graph"),
+        (("run", "--help"), "rover-run"),
+    ],
+)
+def test_help_needs_no_set_up(machine, arguments, page):
+    (machine.bin / "flock").unlink()  # a set-up would need it
+    done = machine.rover(*arguments, PYTHON="foo")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == (ROOT / "rover_tools" / "help" / f"{page}.txt").read_text()
+
+
+def test_help_of_an_executable_is_left_to_it(machine):
+    done = machine.rover("run", "rover_bridge", "bridge_node", "--help", PYTHON="foo")
     assert done.returncode == 1
-    assert done.stderr.endswith("rover: no command 'dance'\n")
+    assert done.stdout == ""
+
+
+@pytest.mark.parametrize("arguments", [("dance",), ("rover",), ("bench", "dance"), ("--dance",)])
+def test_an_unknown_command_sets_nothing_up(machine, arguments):
+    done = machine.rover(*arguments)
+    assert done.returncode == 2
+    assert done.stderr == f"rover: no command '{' '.join(arguments)}' (./rover --help)\n"
+    assert not (machine.root / "log").exists()
+
+
+def test_bench_alone_lists_the_benchmarks(machine):
+    done = machine.rover("bench")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "perception" in done.stderr
+
+
+def test_completion_does_not_wait_for_a_set_up(machine):
+    done = machine.rover(_ROVER_COMPLETE="bash_complete")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

@@ -38,6 +38,7 @@ ROSDEP_KEYS = {
     "matplotlib": "python3-matplotlib",
     "yaml": "python3-yaml",
     "tqdm": "python3-tqdm",
+    "click": "python3-click",
     "dask": "python3-distributed-pip",
     "distributed": "python3-distributed-pip",
     "jinja2": "python3-jinja2",

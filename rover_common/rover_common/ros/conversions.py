@@ -19,6 +19,7 @@ from std_msgs.msg import Header
 
 from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT
+from rover_common.errors import RoverError
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
 from rover_common.types import (
     CameraFrame,
@@ -34,7 +35,7 @@ from rover_common.types import (
 NANOSECONDS = 1_000_000_000
 
 
-class MessageError(ValueError):
+class MessageError(RoverError, ValueError):
     """A message that cannot be used: wrong size or encoding."""
 
 

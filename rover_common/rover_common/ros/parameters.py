@@ -9,11 +9,12 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.node import Node
 
 from rover_common.config import ParameterInfo
+from rover_common.errors import RoverError
 
 C = TypeVar("C")
 
 
-class ParameterError(ValueError):
+class ParameterError(RoverError, ValueError):
     """A parameter's value is not one of its choices."""
 
 

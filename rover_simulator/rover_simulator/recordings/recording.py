@@ -10,6 +10,7 @@ from datetime import datetime
 from pathlib import Path, PureWindowsPath
 from typing import Literal
 
+from rover_common.errors import RoverError
 from rover_common.geometry import Pose, wrap_angle
 
 LOG_NAME = "robot_log.csv"
@@ -25,7 +26,7 @@ NOMINAL_PERIOD = 0.04  # [s] between frames whose names carry no time
 YawConvention = Literal["ccw-from-east", "cw-from-north"]
 
 
-class RecordingError(ValueError):
+class RecordingError(RoverError, ValueError):
     """The folder holds no recorded run that can be played."""
 
 

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from rover_common.errors import RoverError
 from rover_simulator.recordings.recording import RecordedFrame, Recording
 from rover_simulator.wire.telemetry_format import format_telemetry
 from rover_simulator.wire.unity_client import ANSWERED_EVENTS, Event, UnityClient
@@ -17,7 +18,7 @@ ANSWER_TIMEOUT = 30.0  # [s] far beyond the bridge's own deadline
 JPEG_START, JPEG_END = b"\xff\xd8", b"\xff\xd9"
 
 
-class NoAnswerError(RuntimeError):
+class NoAnswerError(RoverError):
     """The server left a telemetry without an answer."""
 
 

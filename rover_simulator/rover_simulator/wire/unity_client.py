@@ -16,6 +16,8 @@ from typing import Any
 
 import websocket
 
+from rover_common.errors import RoverError
+
 FRAGMENT_BYTES = 1016
 PING_PERIOD = 25.0  # [s] after each pong
 RECONNECT_PAUSE = 0.005  # [s]
@@ -30,11 +32,11 @@ ESCAPE = re.compile(r"\\([\"\\]?)")
 OPEN = "open"  # the server's handshake packet; the simulator sends a telemetry on it, unasked
 
 
-class ProtocolError(RuntimeError):
+class ProtocolError(RoverError):
     """The server sent what the simulator cannot take; the simulator closes the socket then."""
 
 
-class ConnectionLostError(ConnectionError):
+class ConnectionLostError(RoverError, ConnectionError):
     """The connection was refused, or ended."""
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
+from rover_common.errors import RoverError
 from rover_common.geometry import Pose
 from rover_common.ground_truth import load_truth
 from rover_simulator.world.boulders import Boulder, boulders_of
@@ -19,7 +20,7 @@ from rover_simulator.world.boulders import Boulder, boulders_of
 MAP_NAME, WORLD_NAME = "map.png", "world.yaml"
 
 
-class WorldError(ValueError):
+class WorldError(RoverError, ValueError):
     """A world's folder that cannot be read."""
 
 

@@ -1,4 +1,4 @@
-"""`rover bench decision`: what deciding costs per frame, and what each plan costs.
+"""What deciding costs per frame, and what each plan costs.
 
 Whole missions in one process without ROS. Plans are made in their thread as always, but the loop
 waits for each before it goes on, so that no plan is timed while the simulator and perception take
@@ -8,11 +8,9 @@ worked: on a busy machine the former counts other programs as well.
 
 from __future__ import annotations
 
-import argparse
-import json
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -27,17 +25,14 @@ from rover_decision.missions.sample_return.mission import SampleReturnMission
 from rover_decision.types import Decision, Frame
 from rover_navigation.plan_scheduler import MakePlan
 from rover_navigation.types import Plan, PlanRequest
-from rover_simulator.main import fps_option, frame_steps_of
+from rover_simulator.options import WorldOptions
+from rover_simulator.run import frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
-from rover_simulator.world.generator import generate_world, world_of_map
-from rover_tools.cli.errors import run_command
 from rover_tools.evaluation.closed_loop import Loop
 from rover_tools.evaluation.results import Result
-from rover_tools.evaluation.strategy import SYNTAX, Strategy
-from rover_tools.runner.run import note, result_folder
+from rover_tools.evaluation.strategy import Strategy
+from rover_tools.output import note, print_result, result_folder, write_result
 
-SEEDS = (5,)
-FPS = 12.5  # [1/s] half of the usual rate, in half of the time: a frame costs the same
 PLAN_LIMIT = 50.0  # [ms] within which a plan should be made
 COLUMNS = {"median": 50, "p99": 99, "max": 100}  # percentiles
 
@@ -68,7 +63,7 @@ class Stopwatch:
 
 
 class Costs:
-    """Of all missions flown."""
+    """Of all missions."""
 
     def __init__(self) -> None:
         self.frames, self.plans = Stopwatch(), Stopwatch()
@@ -106,62 +101,45 @@ class TimedCore(DecisionCore):
             return super().step(frame)
 
 
-def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
-    options = _parser().parse_args(arguments)
-    return run_command("bench decision", lambda: _bench(options))
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="rover bench decision", description=__doc__)
-    add = parser.add_argument
-    add("--seeds", type=int, nargs="+", default=SEEDS, help="of the canyons (default: %(default)s)")
-    add("--map", type=Path, metavar="PNG", help="this map's canyon instead; seeds draw its samples")
-    add("--size", type=float, default=1.0,
-        help="of generated canyons, 1 as large as the original (default: %(default)s)")  # fmt: skip
-    add("--strategy", "--explorer", type=Strategy.parse, default=Strategy(), metavar="NAME",
-        help=f"{SYNTAX} (default: %(default)s)")  # fmt: skip
-    add("--fps", type=fps_option, default=FPS, help="of the camera (default: %(default)s)")
-    add("--time-limit", type=float, default=900.0, metavar="S",
-        help="[s] of simulated time for each mission (default: %(default)s)")  # fmt: skip
-    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
-    add("--json", action="store_true", help="print the result as one JSON object")
-    return parser
-
-
-def _bench(options: argparse.Namespace) -> None:
+def bench(
+    worlds: Sequence[WorldOptions],
+    strategy: Strategy | None,
+    fps: float,
+    time_limit: float,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Run one mission in each world; write and print the costs of all of them together."""
     cv2.setNumThreads(1)
-    folder = result_folder("bench-decision", options.out)
+    folder = result_folder("bench-decision", out)
     costs = Costs()
     missions = []
-    for seed in options.seeds:
-        missions.append(_fly(seed, options, costs))
+    for world in worlds:
+        missions.append(_run(world, strategy or Strategy(), fps, time_limit, costs))
         note(_line(missions[-1]))
     result = {**summary_of(costs), "missions": missions}
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
-    print(json.dumps(result) if options.json else _table(result))
+    write_result(folder, result)
+    print_result(result, as_json, _table(result))
     note(f"figures in {folder}")
 
 
-def _fly(seed: int, options: argparse.Namespace, costs: Costs) -> Result:
+def _run(
+    options: WorldOptions, strategy: Strategy, fps: float, time_limit: float, costs: Costs
+) -> Result:
     """One mission to its end; its costs are added to the others'."""
-    world = (
-        generate_world(seed, options.size)
-        if options.map is None
-        else world_of_map(options.map, seed)
-    )
-    simulation = Simulation(world, seed, frame_steps_of(options.fps))
-    config = options.strategy.config()
+    world = options.load()
+    simulation = Simulation(world, options.seed, frame_steps_of(fps))
+    config = strategy.config()
     frames, plans = len(costs.frames.laps), len(costs.plans.laps)
     loop = Loop(simulation, core=timed_core(config, costs))
     try:
-        end = loop.run(START_TIME + options.time_limit, lambda _: costs.planned.wait())
+        end = loop.run(START_TIME + time_limit, lambda _: costs.planned.wait())
     finally:
         loop.close()
     return {
         "world": world.name,
-        "seed": seed,
-        "strategy": str(options.strategy),
+        "seed": options.seed,
+        "strategy": str(strategy),
         "done": end.done,
         "time": round(simulation.time - START_TIME, 1),
         "frames": len(costs.frames.laps) - frames,

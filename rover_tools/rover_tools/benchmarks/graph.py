@@ -1,49 +1,31 @@
-"""`rover bench graph`: telemetry to command through the three processes, over the wire and DDS."""
+"""Telemetry to command through the three processes, over the wire and DDS."""
 
 from __future__ import annotations
 
-import argparse
 import itertools
-import json
 from dataclasses import replace
 from pathlib import Path
 
 from rover_simulator.recordings.recording import Recording
 from rover_simulator.recordings.replay import play
 from rover_simulator.wire.unity_client import UnityClient
-from rover_tools.cli.errors import run_command
-from rover_tools.cli.replay import OVERRIDES
 from rover_tools.evaluation.recordings import example_recording
 from rover_tools.evaluation.results import Result, percentile_ms, summary
-from rover_tools.runner.run import Run, note, result_folder, running_graph
+from rover_tools.output import note, print_result, result_folder, write_result
+from rover_tools.runner.replay import OVERRIDES
+from rover_tools.runner.run import Run, running_graph
 
 WARM_UP = 50  # frames not counted: first use of libraries, caches, buffers
 
 
-def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
-    options = _parser().parse_args(arguments)
-    return run_command("bench graph", lambda: _bench(options))
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="rover bench graph", description=__doc__)
-    add = parser.add_argument
-    add("--frames", type=int, default=1000, help="frames that count (default: %(default)s)")
-    add("--recording", type=Path, metavar="DIR", help="frames to use (default: a recorded run"
-        " where there is one, else frames of the embedded simulator)")  # fmt: skip
-    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
-    add("--json", action="store_true", help="print the result as one JSON object")
-    return parser
-
-
-def _bench(options: argparse.Namespace) -> None:
-    folder = result_folder("bench-graph", options.out)
-    recording, source = example_recording(options.recording, folder)
+def bench(frames: int, chosen: Path | None, out: Path | None, as_json: bool) -> None:
+    """Measure on the chosen recording, or on an example; write and print the result."""
+    folder = result_folder("bench-graph", out)
+    recording, source = example_recording(chosen, folder)
     with running_graph(folder, OVERRIDES) as run:
-        result = {"source": source, **measure(run, recording, options.frames)}
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
-    print(json.dumps(result) if options.json else summary(result))
+        result = {"source": source, **measure(run, recording, frames)}
+    write_result(folder, result)
+    print_result(result, as_json, summary(result))
     note(f"one exchange in flight, {WARM_UP} frames of warm-up not counted; results in {folder}")
 
 

@@ -6,8 +6,6 @@ through generated canyons. Reading the images is not measured.
 
 from __future__ import annotations
 
-import argparse
-import json
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -26,14 +24,12 @@ from rover_perception.perception import Perception
 from rover_simulator.recordings.recording import read_recording
 from rover_tools.benchmarks.baseline import BaselinePerception
 from rover_tools.benchmarks.curve_plot import Curve, draw_curves
-from rover_tools.cli.errors import run_command
 from rover_tools.evaluation.recordings import data_folder
 from rover_tools.evaluation.results import Result, Truth, score
 from rover_tools.evaluation.scoring import score_map
-from rover_tools.runner.run import note, result_folder
+from rover_tools.output import note, print_result, result_folder, write_result
 
 CONFIG = PerceptionConfig(image_lag=0)  # recorded images are of the recorded poses
-SEEDS = (1, 2, 3)  # of the canyons, where there is no recorded run
 SHARES = np.arange(1, 17) / 16  # of a cell, along the curves
 
 P = ParamSpec("P")
@@ -49,36 +45,21 @@ class FrameSequence:
     truth: Truth
 
 
-def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
-    options = _parser().parse_args(arguments)
-    return run_command("bench perception", lambda: _bench(options))
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="rover bench perception", description=__doc__)
-    add = parser.add_argument
-    add("--generated", action="store_true", help="use generated canyons in any case")
-    add("--seeds", type=int, nargs="+", default=SEEDS, help="of those (default: %(default)s)")
-    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
-    add("--json", action="store_true", help="print the result as one JSON object")
-    return parser
-
-
-def _bench(options: argparse.Namespace) -> None:
+def bench(generated: bool, seeds: Sequence[int], out: Path | None, as_json: bool) -> None:
+    """Measure on recorded runs, or on drives through the canyons of the seeds; write and print."""
     cv2.setNumThreads(1)
-    folder = result_folder("bench-perception", options.out)
-    sequences = [] if options.generated else _recorded_sequences()
+    folder = result_folder("bench-perception", out)
+    sequences = [] if generated else _recorded_sequences()
     timer = StageTimer()
     rows, curves = [], []
-    for sequence in sequences or _generated_sequences(folder, options.seeds):
+    for sequence in sequences or _generated_sequences(folder, seeds):
         row, sequence_curves = _run_sequence(sequence, timer)
         rows.append(row)
         curves += sequence_curves
     draw_curves(folder / "curves.png", curves)
     result = {**timer.summary(), "sequences": rows}
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
-    print(json.dumps(result) if options.json else _table(result))
+    write_result(folder, result)
+    print_result(result, as_json, _table(result))
     note(f"curves and figures in {folder}")
 
 

@@ -1,8 +1,7 @@
-"""`rover bench simulator`: the embedded simulator against recordings of the original."""
+"""The embedded simulator against recordings of the original."""
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import subprocess
@@ -22,10 +21,9 @@ from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
 from rover_simulator.world.generator import generate_world
 from rover_tools.benchmarks.pictures import COLLISION_TILT, RUNS, picture_agreement
 from rover_tools.benchmarks.wire_speed import wire_speed
-from rover_tools.cli.errors import run_command
 from rover_tools.evaluation.recordings import data_folder
 from rover_tools.evaluation.results import Result, summary
-from rover_tools.runner.run import note
+from rover_tools.output import note, print_result
 
 WINDOW = 5.0  # [s]
 SPEED_FRAMES = 200
@@ -35,18 +33,8 @@ STEERING_DEG, THROTTLE = "3", "0.3"  # of the drive
 FRESH = "from rover_tools.benchmarks.simulator import fresh_simulation as fresh; fresh()"
 
 
-def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
-    parser = argparse.ArgumentParser(prog="rover bench simulator", description=__doc__)
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument(
-        "--picture", type=Path, metavar="FILE", help="draw recorded frames beside rendered ones"
-    )
-    options = parser.parse_args(arguments)
-    return run_command("bench simulator", lambda: _bench(options.json, options.picture))
-
-
-def _bench(as_json: bool, picture: Path | None) -> None:
+def bench(picture: Path | None, as_json: bool) -> None:
+    """Compare with recordings where there are some, measure speed and memory, and print."""
     result: Result = {}
     data = data_folder()
     truth = data / "udacity" / "calibration_images" / "map_bw.png"
@@ -56,7 +44,7 @@ def _bench(as_json: bool, picture: Path | None) -> None:
         note(f"no recordings in {data}: only speed and memory are measured")
     fresh = subprocess.run([sys.executable, "-c", FRESH], check=True, capture_output=True)
     result |= json.loads(fresh.stdout) | wire_speed(SEED)
-    print(json.dumps(result) if as_json else summary(result))
+    print_result(result, as_json, summary(result))
 
 
 def motion_errors(data: Path) -> Result:

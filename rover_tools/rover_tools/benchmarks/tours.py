@@ -1,4 +1,4 @@
-"""`rover bench tours`: maps of whole missions, driven steadily and roughly, against the truth.
+"""Maps of whole missions, driven steadily and roughly, against the truth.
 
 Each mission runs in one process without ROS; the map is that of its last frame. The rough driver
 overrides the mission for seconds at a time, full throttle with the steering held, so that the
@@ -7,27 +7,23 @@ rover runs up walls, rocks and comes down with its image, pitch and roll to matc
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 
+from rover_simulator.options import WorldOptions
 from rover_simulator.simulation import Simulation
-from rover_simulator.world.generator import generate_world, world_of_map
 from rover_simulator.world.world import World
-from rover_tools.cli.errors import run_command
 from rover_tools.evaluation.closed_loop import Loop
 from rover_tools.evaluation.map_files import draw_map
 from rover_tools.evaluation.results import Result, Truth, score
-from rover_tools.runner.run import note, result_folder
+from rover_tools.output import note, print_result, result_folder, write_result
 
-SEEDS = (63, 71)  # none that a constant of perception was chosen with
 FRAME_STEPS = 4  # 12.5 frames a second
 OWN_SECONDS = (8.0, 20.0)  # [s] for which the mission drives
 ROUGH_SECONDS = (1.5, 3.0)  # [s] for which it is overridden
@@ -36,7 +32,7 @@ TILTED = math.radians(5.0)  # beyond what driving on flat ground does
 
 
 class RoughSimulation(Simulation):
-    """The simulator with somebody who grabs the wheel now and then."""
+    """The simulator with a driver who overrides the commands for seconds at a time."""
 
     def __init__(self, world: World, seed: int, frame_steps: int) -> None:
         super().__init__(world, seed, frame_steps)
@@ -64,40 +60,25 @@ DRIVERS: dict[str, Callable[[World, int, int], Simulation]] = {
 }
 
 
-def main(arguments: list[str]) -> int:
-    """Returns the exit code."""
-    options = _parser().parse_args(arguments)
-    return run_command("bench tours", lambda: _bench(options))
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="rover bench tours", description=__doc__)
-    add = parser.add_argument
-    add("--seeds", type=int, nargs="+", default=SEEDS, help="of the canyons (default: %(default)s)")
-    add("--map", type=Path, metavar="PNG", help="this map's canyon instead; seeds draw its samples")
-    add("--drivers", nargs="+", choices=DRIVERS, default=tuple(DRIVERS), help="(default: both)")
-    add("--time-limit", type=float, default=600.0, metavar="S",
-        help="[s] of simulated time for each (default: %(default)s)")  # fmt: skip
-    add("--out", type=Path, metavar="DIR", help="result folder (default: a new one in ./results)")
-    add("--json", action="store_true", help="print the result as one JSON object")
-    return parser
-
-
-def _bench(options: argparse.Namespace) -> None:
+def bench(
+    worlds: Sequence[WorldOptions],
+    drivers: Sequence[str],
+    time_limit: float,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Drive each world with each driver; write and print the scores."""
     cv2.setNumThreads(1)
-    folder = result_folder("bench-tours", options.out)
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = result_folder("bench-tours", out)
     rows = []
-    for seed in options.seeds:
-        world = generate_world(seed) if options.map is None else world_of_map(options.map, seed)
-        for driver in options.drivers:
-            rows.append(tour(world, seed, driver, options.time_limit, folder))
+    for options in worlds:
+        world = options.load()
+        for driver in drivers:
+            rows.append(tour(world, options.seed, driver, time_limit, folder))
             note(_line(rows[-1]))
-    (folder / "result.json").write_text(json.dumps({"tours": rows}, indent=2) + "\n")
-    if options.json:
-        print(json.dumps({"tours": rows}))
-    else:
-        print("\n".join(map(_line, rows)))
+    result = {"tours": rows}
+    write_result(folder, result)
+    print_result(result, as_json, "\n".join(map(_line, rows)))
     note(f"maps and figures in {folder}")
 
 

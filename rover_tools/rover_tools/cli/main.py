@@ -1,41 +1,61 @@
-"""The `rover` command line: its subcommands by name."""
+"""The `rover` command line: its commands by name."""
 
 from __future__ import annotations
 
-import importlib
 import sys
+from collections.abc import Sequence
 
-# Imported only when called: each needs other libraries, and start-up time is felt.
-COMMANDS = {
-    "demo": ("rover_tools.cli.demo", "a whole mission in a small generated canyon, scored"),
-    "mission": ("rover_tools.cli.mission", "a mission in the embedded simulator, to its end"),
-    "scoreboard": ("rover_tools.scoreboard.main", "many missions without ROS, and their table"),
-    "sim": ("rover_simulator.main", "the embedded simulator alone, for any rover server"),
-    "replay": ("rover_tools.cli.replay", "play a recorded run through the graph, score the map"),
-    "bench": (
-        "rover_tools.benchmarks.bench",
-        "benchmarks: graph, perception, decision, simulator, tours",
+import click
+
+from rover_common.command_line import run_command
+from rover_tools.cli.lazy_group import Entry, LazyGroup
+
+NAME = "rover"
+COMMANDS = "rover_tools.cli.commands"
+TABLE = {
+    "demo": Entry(f"{COMMANDS}.demo", "a whole mission in a small generated canyon, scored"),
+    "mission": Entry(f"{COMMANDS}.mission", "one mission in the embedded simulator, to its end"),
+    "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
+    "replay": Entry(f"{COMMANDS}.replay", "play a recorded run through the graph, score the map"),
+    "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
+    "bench": Entry(
+        "rover_tools.cli.bench.group", "graph, perception, decision, simulator or tours"
     ),
+    "test": Entry(f"{COMMANDS}.test", "all tests, or those that pytest's arguments choose"),
+    "run": Entry(f"{COMMANDS}.run", "an executable of a package, as `ros2 run` does"),
+    "shell": Entry(f"{COMMANDS}.shell", "a shell in which the workspace is sourced"),
+    "build": Entry(f"{COMMANDS}.build", "set up and build, nothing more"),
+    "doctor": Entry(f"{COMMANDS}.doctor", "what is missing on this machine"),
+    "completion": Entry(f"{COMMANDS}.completion", "the completion script of bash, zsh or fish"),
 }
 
 
-def main() -> int:
-    """Run the subcommand named first on the command line."""
-    arguments = sys.argv[1:]
-    if not arguments or arguments[0] in ("-h", "--help"):
-        print(usage())
-        return 0
-    name, *rest = arguments
-    if name not in COMMANDS:
-        print(f"rover: no command '{name}'\n\n{usage()}", file=sys.stderr)
-        return 2
-    module = importlib.import_module(COMMANDS[name][0])
-    return module.main(rest)
+@click.command(
+    cls=LazyGroup,
+    table=TABLE,
+    name=NAME,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    options_metavar="",
+    subcommand_metavar="COMMAND [OPTIONS]",
+)
+def rover() -> None:
+    """Run, evaluate and measure the rover.
+
+    In a checkout this is ./rover, which first sets up what is missing; PYTHON chooses its
+    interpreter, 3.11 or 3.12.
+
+    \b
+    Examples:
+      ./rover demo
+      ./rover mission --seed 3 --out results/seed-3
+      ./rover COMMAND --help
+    """
 
 
-def usage() -> str:
-    lines = [f"  {name:10} {text}" for name, (_, text) in COMMANDS.items()]
-    return "usage: rover COMMAND [options]   (rover COMMAND --help)\n\n" + "\n".join(lines)
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command that the arguments name; returns the exit code."""
+    given = sys.argv[1:] if arguments is None else arguments
+    return run_command(rover, NAME, given or ["--help"])
 
 
 if __name__ == "__main__":

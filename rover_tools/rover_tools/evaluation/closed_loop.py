@@ -31,7 +31,7 @@ from rover_decision.missions.sample_return import make_core
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.types import Decision, Frame
-from rover_perception.camera.ground_projection import View
+from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import ABOVE_HORIZON, NEAREST_ROWS
 from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
@@ -145,10 +145,10 @@ class Loop:
 
 def first_row_read(pose: Pose) -> int:
     """The first row that perception reads of an image taken at this pose; 0 for one it refuses."""
-    view = View.of(ROVER_CAMERA, pose)
-    if not view.usable:
+    projection = GroundProjection.of(ROVER_CAMERA, pose)
+    if not projection.usable:
         return 0
-    row = math.floor(view.highest_horizon) - ABOVE_HORIZON - POSE_ROUNDING
+    row = math.floor(projection.highest_horizon) - ABOVE_HORIZON - POSE_ROUNDING
     return min(max(row, 0), ROVER_CAMERA.height - NEAREST_ROWS)
 
 

@@ -1,4 +1,4 @@
-"""What a flown mission was like, and its result: the same for the graph and for the loop."""
+"""What was measured of a mission, and its result: the same for the graph and for the loop."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from rover_tools.evaluation.results import Result, Truth, score
 
 
 @dataclass(frozen=True)
-class Flight:
-    """What the simulator says of the run, beside what the rover believes."""
+class MissionRun:
+    """What the simulator measured, as opposed to what the rover estimates."""
 
     time: float  # [s] simulated, since the first telemetry
     distance: float  # [m]
@@ -34,24 +34,24 @@ def mission_result(
     seed: int,
     *,
     done: bool,
-    flight: Flight,
+    run: MissionRun,
     grid: GridMap | None,
     rocks: tuple[RockTrack, ...],
     recoveries: int | None,
     wall_seconds: float,
 ) -> Result:
-    """The result of one mission; `done` is the rover's own word, all else is measured."""
-    home = np.hypot(*(flight.track[-1] - (world.start.x, world.start.y)))
+    """The result of one mission; `done` is what the rover reports, all else is measured."""
+    home = np.hypot(*(run.track[-1] - (world.start.x, world.start.y)))
     return {
         "done": done,
         "reason": "home" if done else "the time is up",
-        "time": round(flight.time, 1),
+        "time": round(run.time, 1),
         **score(grid, rocks, truth_of(world)),
-        "samples_collected": len(world.samples) - flight.samples_left,
+        "samples_collected": len(world.samples) - run.samples_left,
         "samples_total": len(world.samples),
         "home_distance": round(float(home), 2),
-        "distance": round(flight.distance, 1),
-        "contacts": flight.contacts,
+        "distance": round(run.distance, 1),
+        "contacts": run.contacts,
         "recoveries": recoveries,
         "world": world.name,
         "seed": seed,
@@ -68,7 +68,7 @@ RESULT_KEYS = (
 
 
 def failed_result(world: str, strategy: str, seed: int, error: str) -> Result:
-    """The result of a mission that was not flown to its end: nothing is known but why."""
+    """The result of a mission that did not end: nothing is known but the error."""
     reason = f"failed: {error}"
     known = {"done": False, "reason": reason, "world": world, "seed": seed, "strategy": strategy}
     return dict.fromkeys(RESULT_KEYS) | known

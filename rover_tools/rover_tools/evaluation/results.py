@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.errors import RoverError
 from rover_common.ground_truth import load_truth
 from rover_common.map_encoding import navigable_cells
 from rover_common.types import GridMap, RockTrack
@@ -20,7 +21,7 @@ from rover_tools.evaluation.scoring import score_map, score_rocks
 Result = dict[str, Any]
 
 
-class SamplesError(ValueError):
+class SamplesError(RoverError, ValueError):
     """The file of true sample positions cannot be read."""
 
 

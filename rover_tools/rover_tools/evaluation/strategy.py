@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import argparse
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 import yaml
 
+from rover_common.errors import RoverError
 from rover_decision.missions.sample_return.config import DecisionConfig
 
 DEFAULTS = DecisionConfig()
-SYNTAX = "EXPLORER or EXPLORER+WAY_HOME, as in tour or frontier+bearing"
 
 
-class ParametersError(ValueError):
+class StrategyError(RoverError, ValueError):
+    """A name that is no strategy's."""
+
+
+class ParametersError(RoverError, ValueError):
     """A parameter file that cannot be read."""
 
 
@@ -27,15 +30,13 @@ class Strategy:
 
     @classmethod
     def parse(cls, text: str) -> Strategy:
-        """Raises argparse.ArgumentTypeError, which says what there is."""
+        """Raises StrategyError, which says what there is."""
         explorer, plus, way_home = text.strip().partition("+")
         if not plus:
             way_home = DEFAULTS.way_home
         for name, value in (("explorer", explorer), ("way_home", way_home)):
             if value not in choices(name):
-                raise argparse.ArgumentTypeError(
-                    f"no {name} '{value}'; there are {', '.join(choices(name))}"
-                )
+                raise StrategyError(f"no {name} '{value}'; there are {', '.join(choices(name))}")
         return cls(explorer, way_home)
 
     @classmethod
@@ -47,16 +48,17 @@ class Strategy:
             for node, section in sections.items():
                 if node.endswith("decision_node") or node == "/**":
                     values |= section["ros__parameters"]
-        except (AttributeError, KeyError, TypeError, yaml.YAMLError) as error:
-            raise ParametersError(f"{path}: not a parameter file ({error})") from error
+        except (AttributeError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+            reason = " ".join(str(error).split())  # PyYAML writes several lines
+            raise ParametersError(f"{path}: not a parameter file ({reason})") from error
         return cls(
             str(values.get("explorer", DEFAULTS.explorer)),
             str(values.get("way_home", DEFAULTS.way_home)),
         )
 
     def __str__(self) -> str:
-        usual = self.way_home == DEFAULTS.way_home
-        return self.explorer if usual else f"{self.explorer}+{self.way_home}"
+        default = self.way_home == DEFAULTS.way_home
+        return self.explorer if default else f"{self.explorer}+{self.way_home}"
 
     def parameters(self) -> dict[str, object]:
         """Of the decision node."""

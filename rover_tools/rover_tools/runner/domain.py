@@ -10,19 +10,27 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from rover_common.errors import RoverError
+
 # Domain d uses UDP ports from 7400 + 250 d; above 101 they reach the ephemeral ports.
 DOMAINS = range(1, 100)
+HIGHEST = 232  # the last whose ports exist
 
 
-class NoFreeDomainError(RuntimeError):
-    """Every domain is held by another run."""
+class DomainError(RoverError):
+    """ROS_DOMAIN_ID is no domain, or every domain is held by another run."""
 
 
 @contextmanager
 def reserved_domain() -> Iterator[int]:
-    """ROS_DOMAIN_ID where it is set; otherwise a free domain, held until the block ends."""
+    """ROS_DOMAIN_ID where it is set; otherwise a free domain, held until the block ends.
+
+    Raises DomainError.
+    """
     chosen = os.environ.get("ROS_DOMAIN_ID")
     if chosen:
+        if not (chosen.isdecimal() and int(chosen) <= HIGHEST):
+            raise DomainError(f"ROS_DOMAIN_ID={chosen} is no domain: 0 to {HIGHEST}")
         yield int(chosen)
         return
     for domain in random.sample(DOMAINS, len(DOMAINS)):
@@ -38,4 +46,4 @@ def reserved_domain() -> Iterator[int]:
                 continue
             yield domain
             return
-    raise NoFreeDomainError("all DDS domains are in use; end another run or set ROS_DOMAIN_ID")
+    raise DomainError("all DDS domains are in use; end another run or set ROS_DOMAIN_ID")

@@ -29,7 +29,7 @@ def executable(package: str, name: str) -> str:
 
 
 def free_port() -> int:
-    """A TCP port on the loopback that nobody listens on now."""
+    """A TCP port on the loopback that is free now."""
     with socket.socket() as probe:
         probe.bind((HOST, 0))
         return int(probe.getsockname()[1])

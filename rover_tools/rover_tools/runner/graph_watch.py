@@ -1,4 +1,4 @@
-"""Looks at the running graph from outside: its readiness, its map, its rocks, its state."""
+"""Observes the running graph from outside: its readiness, its map, its rocks, its state."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from rclpy.node import Node
 from rover_interfaces.msg import MissionState, RockTrackArray
 
 from rover_common import topics
+from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
 from rover_common.types import GridMap, RockTrack
 
 
-class GraphNotReadyError(RuntimeError):
+class GraphNotReadyError(RoverError):
     """The nodes did not all connect in time."""
 
 
@@ -60,7 +61,7 @@ class GraphWatch:
                 states = [f"{s.name}: {s.message}" for s in self.diagnostics.values()]
                 raise GraphNotReadyError(
                     f"the graph did not connect within {timeout:.0f} s: "
-                    + ("; ".join(states) or "no node was heard of")
+                    + ("; ".join(states) or "no node reported")
                 )
             time.sleep(0.05)
 

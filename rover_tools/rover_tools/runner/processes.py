@@ -11,11 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
+from rover_common.errors import RoverError
+
 LOG_LINES = 15  # of a dead process, shown to the user
 STOP_SECONDS = 5.0  # [s] for a clean end after SIGINT
 
 
-class ProcessDiedError(RuntimeError):
+class ProcessDiedError(RoverError):
     """A process of the run ended before it was asked to."""
 
 
@@ -65,14 +67,14 @@ class Processes:
         return next(c for c in self._children if c.name == name).process.poll()
 
     def end(self, name: str) -> None:
-        """SIGINT to the named process, and wait; SIGKILL when it stays."""
+        """SIGINT to the named process, and wait; SIGKILL if it does not end."""
         child = next(c for c in self._children if c.name == name)
         _signal(child.process, signal.SIGINT)
         _wait(child.process, self.stop_seconds)
         self._children.remove(child)
 
     def stop(self) -> None:
-        """SIGINT to all, in the order they were started last to first; SIGKILL to what stays."""
+        """SIGINT to all, the last started first; SIGKILL to those that do not end."""
         for child in reversed(self._children):
             _signal(child.process, signal.SIGINT)
         deadline = time.monotonic() + self.stop_seconds

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 
+from rover_tools.output import note
 from rover_tools.runner.domain import reserved_domain
 from rover_tools.runner.graph import HOST, NODES, default_parameters, free_port, start_graph
 from rover_tools.runner.graph_watch import GraphWatch
@@ -38,7 +36,7 @@ def running_graph(
 ) -> Iterator[Run]:
     """Start the graph and wait until its nodes are connected; everything ends with the block.
 
-    Raises GraphNotReadyError or ProcessDiedError.
+    Raises DomainError, GraphNotReadyError or ProcessDiedError.
     """
     with reserved_domain() as domain_id:
         environment = {"ROS_DOMAIN_ID": str(domain_id), "ROS_LOG_DIR": str(folder / "log")}
@@ -49,20 +47,6 @@ def running_graph(
         ):
             parameters = parameters_file or default_parameters()
             start_graph(processes, port, parameters, overrides or {})
-            note(f"starting the graph; look on with ROS_DOMAIN_ID={domain_id}")
+            note(f"starting the graph; watch it with ROS_DOMAIN_ID={domain_id}")
             watch.wait_ready(list(NODES), processes.check, READY_SECONDS)
             yield Run(folder, HOST, port, domain_id, processes, watch)
-
-
-def result_folder(kind: str, chosen: Path | None) -> Path:
-    """The folder for a run's results: the chosen one, or a new one below ./results."""
-    if chosen is None:
-        root = Path(os.environ.get("ROVER_RESULTS", "results"))
-        chosen = root / f"{kind}-{datetime.now():%Y%m%d-%H%M%S}-{os.getpid()}"
-    chosen.mkdir(parents=True, exist_ok=True)
-    return chosen
-
-
-def note(text: str) -> None:
-    """A line for the person who waits; results alone go to standard output."""
-    print(text, file=sys.stderr, flush=True)

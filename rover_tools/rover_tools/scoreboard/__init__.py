@@ -1,1 +1,1 @@
-"""Many missions: worlds x seeds x strategies, flown in parallel, in one table."""
+"""Many missions: worlds x seeds x strategies, run in parallel, in one table."""

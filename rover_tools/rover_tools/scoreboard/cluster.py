@@ -1,4 +1,4 @@
-"""The engine: a Dask cluster that flies the missions, here or on many machines."""
+"""A Dask cluster that runs the missions, here or on many machines."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from distributed import Client, LocalCluster, as_completed
 
 from rover_tools.scoreboard.errors import ScoreboardError
 from rover_tools.scoreboard.job import Job
-from rover_tools.scoreboard.mission_run import Flown, fly_job
+from rover_tools.scoreboard.mission_run import CompletedMission, run_job
 
 CONNECT_SECONDS = 10.0  # [s] for the scheduler to answer
 HOST = "127.0.0.1"
@@ -22,8 +22,8 @@ HOST = "127.0.0.1"
 ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
 MEMORY = {"MALLOC_TRIM_THRESHOLD_": 1 << 30, "MALLOC_MMAP_THRESHOLD_": 1 << 25}  # [bytes]
 
-Outcome = Flown | BaseException
-Fly = Callable[[Job], Flown]
+Outcome = CompletedMission | BaseException
+RunJob = Callable[[Job], CompletedMission]
 
 
 @contextmanager
@@ -36,7 +36,7 @@ def local_cluster(workers: int) -> Iterator[Client]:
             threads_per_worker=1,
             processes=True,
             host=HOST,
-            memory_limit=0,  # a mission's memory does not grow; a limit would kill it half way
+            memory_limit=0,  # a mission's memory does not grow; a limit would kill it
             dashboard_address=f"{HOST}:0",  # any free port; None would take a fixed one
             silence_logs=logging.CRITICAL,
         )
@@ -64,12 +64,20 @@ def cluster(
     return local_cluster(max(1, min(workers or os.cpu_count() or 1, jobs)))
 
 
-def fly_all(
-    client: Client, jobs: Sequence[Job], fly: Fly = fly_job
+def run_all(
+    client: Client,
+    jobs: Sequence[Job],
+    run: RunJob = run_job,
+    on_start: Callable[[str], object] = lambda _: None,
 ) -> Iterator[tuple[Job, Outcome]]:
-    """Fly all jobs; each comes back as soon as it is over, with what it raised, if it did."""
-    # Not pure: what was flown under the same name before must not be taken for it.
-    futures = {client.submit(fly, job, pure=False): job for job in jobs}
+    """Run all jobs; each is yielded as soon as it is over, with the error if it raised one.
+
+    `on_start` is called with a sentence when the first job runs.
+    """
+    # Not pure: the result of an earlier job of the same name must not be taken for it.
+    futures = {client.submit(run, job, pure=False): job for job in jobs}
+    client.wait_for_workers(1)
+    on_start(f"the first missions have started; workers: {len(client.nthreads())}")
     for future in as_completed(list(futures)):
         error = future.exception()
         yield futures.pop(future), future.result() if error is None else error

@@ -1,5 +1,7 @@
-"""What can go wrong with a scoreboard, for the person who started it."""
+"""What can go wrong with a scoreboard."""
+
+from rover_common.errors import RoverError
 
 
-class ScoreboardError(RuntimeError):
+class ScoreboardError(RoverError):
     """One sentence about what is wrong and what to do."""

@@ -1,8 +1,7 @@
-"""One mission to fly, as plain data that can travel to another machine."""
+"""One mission to run, as plain data that can travel to another machine."""
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +17,6 @@ from rover_simulator.world.generator import generate_world, world_on_ground
 from rover_simulator.world.world import World
 
 GENERATED = "generated"  # the group of canyons drawn from a seed
-MOST_SEEDS = 10_000  # in one range; more is a slip of the keyboard
 
 
 @dataclass(frozen=True)
@@ -106,24 +104,3 @@ def make_jobs(
         Job(strategy, seed, place, size, fps, time_limit)
         for (place, seed), strategy in product(places, strategies)
     ]
-
-
-def parse_seeds(text: str) -> list[int]:
-    """`101-140`, `1,5,9` or `1-3,7` as seeds, each once, in the order given.
-
-    Raises argparse.ArgumentTypeError.
-    """
-    seeds: dict[int, None] = {}
-    for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
-        try:
-            low = int(first)
-            high = int(last) if dash else low
-        except ValueError:
-            raise argparse.ArgumentTypeError(
-                f"'{part}' is no seed or range of seeds; write 101-140 or 1,5,9"
-            ) from None
-        if not low <= high < low + MOST_SEEDS:
-            raise argparse.ArgumentTypeError(f"'{part}' is no range from low to high")
-        seeds |= dict.fromkeys(range(low, high + 1))
-    return list(seeds)

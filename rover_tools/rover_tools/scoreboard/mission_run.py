@@ -1,4 +1,4 @@
-"""Fly one mission of the scoreboard, on whatever machine this is called."""
+"""Run one mission of the scoreboard, on the machine that this is called on."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from dataclasses import dataclass
 
 import cv2
 
-from rover_simulator.main import frame_steps_of
+from rover_simulator.run import frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
 from rover_simulator.world.world import World
 from rover_tools.evaluation.closed_loop import Loop, LoopResult
 from rover_tools.evaluation.map_files import draw_map
 from rover_tools.evaluation.mission_result import (
     RESULT_KEYS,
-    Flight,
+    MissionRun,
     failed_result,
     mission_result,
     truth_of,
 )
-from rover_tools.evaluation.oracle import oracle_tour
+from rover_tools.evaluation.oracle.tour import oracle_tour
 from rover_tools.evaluation.results import Result
 from rover_tools.evaluation.strategy import Strategy
 from rover_tools.scoreboard.job import Job
@@ -29,15 +29,15 @@ ROW_KEYS = (*RESULT_KEYS, "oracle_time")
 
 
 @dataclass(frozen=True)
-class Flown:
-    """A finished mission."""
+class CompletedMission:
+    """A mission that ended, with its picture."""
 
     result: Result
     picture: bytes  # PNG
 
 
-def fly_job(job: Job) -> Flown:
-    """Fly it to its end; the same job gives the same result, but for `wall_seconds`."""
+def run_job(job: Job) -> CompletedMission:
+    """Run it to its end; the same job gives the same result, but for `wall_seconds`."""
     cv2.setNumThreads(1)  # each worker has one core
     start = time.monotonic()
     world = job.world()
@@ -47,7 +47,7 @@ def fly_job(job: Job) -> Flown:
         end = loop.run(START_TIME + job.time_limit)
     finally:
         loop.close()
-    flight = Flight(
+    run = MissionRun(
         time=simulation.time - START_TIME,
         distance=simulation.distance,
         contacts=simulation.contacts,
@@ -55,12 +55,12 @@ def fly_job(job: Job) -> Flown:
         track=end.track,
     )
     result = mission_result(
-        world, job.strategy, job.seed, done=end.done, flight=flight, grid=end.world_map,
+        world, job.strategy, job.seed, done=end.done, run=run, grid=end.world_map,
         rocks=end.rocks, recoveries=end.decision.progress.recoveries,
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
     result["oracle_time"] = round(oracle_tour(world).seconds, 1)
-    return Flown(result, _picture(world, end, result))
+    return CompletedMission(result, _picture(world, end, result))
 
 
 def failed_row(job: Job, error: BaseException) -> Result:

@@ -23,7 +23,7 @@ class Entry:
 
     name: str
     settings: dict[str, Any]
-    failed: bool  # it raised; it is flown again the next time
+    failed: bool  # it raised; it runs again the next time
     result: Result
 
     @property
@@ -37,7 +37,7 @@ class Entry:
 
 
 class Store:
-    """What has been flown; a file counts only when it is whole."""
+    """The completed missions; a file counts only when it is whole."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -48,25 +48,25 @@ class Store:
         entries = [_read(path) for path in (self.folder / MISSIONS).glob("*.json")]
         return sorted(entries, key=lambda e: (e.group, e.settings["seed"], e.settings["strategy"]))
 
-    def left(self, jobs: Iterable[Job]) -> list[Job]:
-        """The jobs still to fly, and those that failed.
+    def missing(self, jobs: Iterable[Job]) -> list[Job]:
+        """The jobs that have not run yet, and those that failed.
 
-        Raises ScoreboardError when the folder holds missions flown under other settings: they
-        are not to be mixed.
+        Raises ScoreboardError when the folder holds missions with other settings: they are not
+        to be mixed.
         """
         there = {entry.name: entry for entry in self.entries()}
-        left = []
+        missing = []
         for job in jobs:
             wanted = job.settings()
             for entry in there.values():
                 keys = wanted if entry.name == job.name else SHARED_SETTINGS
                 _check_same(entry, wanted, keys)
             if job.name not in there or there[job.name].failed:
-                left.append(job)
-        return left
+                missing.append(job)
+        return missing
 
     def add(self, job: Job, result: Result, picture: bytes | None) -> None:
-        """Write one mission; the JSON file comes last, so that it stands for a whole one."""
+        """Write one mission; the JSON file comes last, so that it marks a complete one."""
         path = self.folder / MISSIONS / f"{job.name}.json"
         if picture is not None:
             write_whole(path.with_suffix(".png"), picture)
@@ -75,7 +75,7 @@ class Store:
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write a file so that nobody ever sees a part of it."""
+    """Write a file so that no reader ever sees a part of it."""
     draft = path.with_name(f".{path.name}.{os.getpid()}")
     draft.write_bytes(content)
     draft.replace(path)
@@ -86,7 +86,7 @@ def _read(path: Path) -> Entry:
         content = json.loads(path.read_text())
         return Entry(path.stem, content["settings"], content["failed"], content["result"])
     except (KeyError, TypeError, ValueError) as error:
-        raise ScoreboardError(f"{path} is no mission of a scoreboard; delete it") from error
+        raise ScoreboardError(f"{path} is not a mission of a scoreboard; delete it") from error
 
 
 def _check_same(entry: Entry, wanted: dict[str, Any], keys: Iterable[str]) -> None:
@@ -94,5 +94,5 @@ def _check_same(entry: Entry, wanted: dict[str, Any], keys: Iterable[str]) -> No
         there, here = entry.settings.get(key), wanted[key]
         if there != here:
             raise ScoreboardError(
-                f"{entry.name} was flown with {key} {there}, not {here}; choose another --out"
+                f"{entry.name} ran with {key} {there}, not {here}; choose another --out"
             )

@@ -18,7 +18,7 @@ HOME_WITHIN = 2.0  # [m] of the start, as missions are scored; the rover itself 
 
 @dataclass(frozen=True)
 class Share:
-    """How many of all missions did it, with Wilson's confidence interval."""
+    """How many of all missions achieved it, with Wilson's confidence interval."""
 
     count: int
     total: int
@@ -114,7 +114,7 @@ class Summary:
 
 
 def is_home(row: Result) -> bool:
-    """By its own word, and truly near its start."""
+    """The rover reports it, and it is near its start."""
     return bool(row["done"]) and row["home_distance"] <= HOME_WITHIN
 
 
@@ -153,7 +153,7 @@ def as_text(rows: Sequence[Summary]) -> str:
 
 LEGEND = (
     "Three figures are mean / median / worst; in brackets, the 95 % confidence interval (Wilson).\n"
-    "Home: says so, and is within 2 m of its start. Time / oracle is of those that came home."
+    "Home: reports it, and is within 2 m of its start. Time / oracle: of those that came home."
 )
 
 

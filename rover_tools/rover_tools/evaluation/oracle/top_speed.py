@@ -1,4 +1,4 @@
-"""How fast the vehicle gets from one stop to the next when nothing is in its way."""
+"""The vehicle's shortest time between two stops on free, flat ground."""
 
 from __future__ import annotations
 
@@ -19,32 +19,32 @@ SPEEDS = np.linspace(0.0, MAX_SPEED, 501)  # [m/s] at which the profile is kept
 
 @dataclass(frozen=True)
 class Profile:
-    """Gathering speed and losing it again: by the speed reached, SPEEDS."""
+    """Acceleration and braking, by the speed reached (SPEEDS)."""
 
-    seconds: NDArray[np.float64]  # to reach the speed from a stand and to stop again
+    seconds: NDArray[np.float64]  # to reach the speed from standstill and to stop again
     metres: NDArray[np.float64]
 
 
 @cache
 def profile() -> Profile:
-    """As the simulator's vehicle does it on flat ground."""
+    """Of the simulator's vehicle on flat ground."""
     start = Pose(0.0, 0.0, 0.0)
-    gathering = _drive(Vehicle(start), THROTTLE)
+    accelerating = _drive(Vehicle(start), THROTTLE)
     rolling = Vehicle(start)
     rolling.roll_on(MAX_SPEED, THROTTLE)
-    losing = _drive(rolling, BRAKE)
-    # What is left of the stop when the speed is reached, so that both grow with speed.
-    losing = (losing[-1] * (1, 1, 0) - losing * (1, 1, -1))[::-1]
+    braking = _drive(rolling, BRAKE)
+    # The rest of the braking once the speed is reached, so that both grow with speed.
+    braking = (braking[-1] * (1, 1, 0) - braking * (1, 1, -1))[::-1]
     parts = [
         np.interp(SPEEDS, table[:, 2], table[:, column])
-        for table in (gathering, losing)
+        for table in (accelerating, braking)
         for column in (0, 1)
     ]
     return Profile(parts[0] + parts[2], parts[1] + parts[3])
 
 
 def leg_seconds(metres: float) -> float:
-    """Time [s] for a straight way, from a stand to a stand."""
+    """Time [s] for a straight leg, from standstill to standstill."""
     both = profile()
     top = float(np.interp(metres, both.metres, SPEEDS))
     cruise = max(0.0, metres - float(both.metres[-1])) / MAX_SPEED

@@ -1,4 +1,4 @@
-"""The ground as the oracle knows it: ways between cells, and which cell sees which."""
+"""The ground as the oracle knows it: paths between cells, and which cell sees which."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
-SIGHT_STEP = 0.5  # [m] between the points of a line of sight that are looked up
+SIGHT_STEP = 0.5  # [m] between the sampled points of a line of sight
 # Links of a cell (rows up, columns right) with the cells that must be navigable between; the other
 # eight directions are their reverses.
 LINKS = {
@@ -45,7 +45,7 @@ class OracleGround:
         """The cell whose centre is nearest to a point [m]."""
         return int(np.argmin(np.hypot(*(self.centers - point).T)))
 
-    def ways_from(self, sources: list[int]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    def paths_from(self, sources: list[int]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Shortest distances [m] and predecessors, both (sources, cells)."""
         metres, before = dijkstra(
             self._links, directed=False, indices=sources, return_predecessors=True

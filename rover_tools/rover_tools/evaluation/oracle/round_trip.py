@@ -9,9 +9,9 @@ import numpy as np
 from networkx.algorithms.approximation import christofides, threshold_accepting_tsp
 from numpy.typing import NDArray
 
-from rover_tools.evaluation.oracle_ground import OracleGround
+from rover_tools.evaluation.oracle.ground import OracleGround
 
-NEARBY = 6.0  # [m] within which a better place to look from is sought
+NEARBY = 6.0  # [m] within which a better viewpoint is sought
 SHORTER = 0.1  # [m] that a change must save
 
 Cells = NDArray[np.intp]
@@ -21,7 +21,7 @@ Mask = NDArray[np.bool_]
 class RoundTrip:
     """An order of stops: the start first, the samples, and viewpoints, which may be moved.
 
-    A cell counts as seen when it is seen from any cell on the shortest ways between the stops.
+    A cell counts as seen when it is seen from any cell on the shortest paths between the stops.
     """
 
     def __init__(self, ground: OracleGround, sight: Mask, start: int, samples: list[int]) -> None:
@@ -30,7 +30,7 @@ class RoundTrip:
         self._sight = sight
         self._stands = {start, *samples}
         self._stops = [start, *sorted(self._stands - {start})]
-        self._ways: dict[int, tuple[NDArray[np.float64], NDArray[np.int32]]] = {}
+        self._paths: dict[int, tuple[NDArray[np.float64], NDArray[np.int32]]] = {}
         self.order()
 
     def metres(self) -> float:
@@ -48,8 +48,8 @@ class RoundTrip:
 
     def path(self) -> Cells:
         """All cells along it; the start first and last."""
-        ways = [self._way(a, b)[1:] for a, b in self._legs()]
-        return np.concatenate([[self._stops[0]], *ways]).astype(np.intp)
+        paths = [self._path(a, b)[1:] for a, b in self._legs()]
+        return np.concatenate([[self._stops[0]], *paths]).astype(np.intp)
 
     def order(self) -> None:
         """Bring the stops into an order that makes the trip short."""
@@ -68,7 +68,7 @@ class RoundTrip:
             self._stops = ordered
 
     def add_viewpoints(self) -> None:
-        """Add the place that sees most of what is not yet seen, until all is."""
+        """Add the cell that sees most of the unseen cells, until all are seen."""
         unseen = ~self._seen(self._legs())
         while unseen.any():
             best = int(np.argmax(np.count_nonzero(self._sight[:, unseen], axis=1)))
@@ -98,30 +98,30 @@ class RoundTrip:
         return list(pairwise([*self._stops, self._stops[0]]))
 
     def _sees(self, wanted: Mask, *stops: int) -> bool:
-        """Whether all wanted cells are seen on the way over these stops."""
-        way = np.concatenate([self._way(a, b) for a, b in pairwise(stops)])
-        return bool(self._sight[np.ix_(way, wanted)].any(axis=0).all())
+        """Whether all wanted cells are seen on the path over these stops."""
+        path = np.concatenate([self._path(a, b) for a, b in pairwise(stops)])
+        return bool(self._sight[np.ix_(path, wanted)].any(axis=0).all())
 
     def _seen(self, legs: list[tuple[int, int]]) -> Mask:
         seen = self._sight[self._stops[0]].copy()
         for a, b in legs:
-            seen |= self._sight[self._way(a, b)].any(axis=0)
+            seen |= self._sight[self._path(a, b)].any(axis=0)
         return seen
 
     def _distances(self, stop: int) -> NDArray[np.float64]:
-        return self._ways_from(stop)[0]
+        return self._paths_from(stop)[0]
 
-    def _way(self, a: int, b: int) -> Cells:
-        """Cells of the shortest way, both ends included."""
-        source, target = (b, a) if a not in self._ways and b in self._ways else (a, b)
-        before = self._ways_from(source)[1]
+    def _path(self, a: int, b: int) -> Cells:
+        """Cells of the shortest path, both ends included."""
+        source, target = (b, a) if a not in self._paths and b in self._paths else (a, b)
+        before = self._paths_from(source)[1]
         cells = [target]
         while cells[-1] != source:
             cells.append(int(before[cells[-1]]))
         return np.array(cells[:: -1 if source == a else 1], np.intp)
 
-    def _ways_from(self, stop: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        if stop not in self._ways:
-            metres, before = self._ground.ways_from([stop])
-            self._ways[stop] = metres[0], before[0]
-        return self._ways[stop]
+    def _paths_from(self, stop: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        if stop not in self._paths:
+            metres, before = self._ground.paths_from([stop])
+            self._paths[stop] = metres[0], before[0]
+        return self._paths[stop]

@@ -1,21 +1,21 @@
-"""What a rover that knew the map would need: a yardstick beside each mission's time.
+"""The time that a rover would need that knew the map: the reference for each mission's time.
 
 The oracle drives one round trip from the start: it brings every navigable cell into view, visits
 every sample, and comes back. It knows the canyon and all samples beforehand, does not have to react
 to anything, and drives the vehicle at its limits.
 
-It is an estimate that is meant to be hard to beat, not a proven lower bound. Easier for it than for
+It is an estimate that is hard to beat, not a proven lower bound. Easier for it than for
 a rover:
 
-- it looks all around wherever it passes, as far as perception maps, with nothing but walls and
-  rocks in the way;
-- it passes bends, and turns around in dead ends, without slowing down; it stops for samples only,
+- it sees all around wherever it passes, as far as perception maps; only walls and rocks block its
+  view;
+- it drives curves, and turns around in dead ends, without slowing down; it stops for samples only,
   for the time that the arm takes;
 - it may drive wherever a cell is navigable, however near the wall.
 
 Harder than at the true optimum:
 
-- the places to look from and the order of the stops come from heuristics: a shorter tour may exist;
+- the viewpoints and the order of the stops come from heuristics: a shorter tour may exist;
 - it moves between cell centres in sixteen directions, at most 2.8 % longer than a straight line;
 - it drives to the cell nearest to a sample, though the arm reaches further.
 """
@@ -30,12 +30,12 @@ from numpy.typing import NDArray
 from rover_common.vehicle import PICKUP_SECONDS
 from rover_perception.config import PerceptionConfig
 from rover_simulator.world.world import World
-from rover_tools.benchmarks.round_trip import RoundTrip
-from rover_tools.benchmarks.top_speed import leg_seconds
-from rover_tools.evaluation.oracle_ground import OracleGround
+from rover_tools.evaluation.oracle.ground import OracleGround
+from rover_tools.evaluation.oracle.round_trip import RoundTrip
+from rover_tools.evaluation.oracle.top_speed import leg_seconds
 
 SIGHT = PerceptionConfig().max_range  # [m] ground beyond is not mapped
-ROUNDS = 20  # of moving the places to look from; it has come to rest long before
+ROUNDS = 20  # of moving the viewpoints; fewer have always been enough
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class OracleTour:
 
 
 def oracle_tour(world: World, sight: float = SIGHT) -> OracleTour:
-    """The same world gives the same tour; some seconds for a world of the usual size.
+    """The same world gives the same tour; it takes some seconds for a world of size 1.
 
     sight [m]: how far ground can be brought into view.
     """

@@ -1,0 +1,89 @@
+"""Run the simulator against a server until it is stopped or its time is up."""
+
+from __future__ import annotations
+
+import json
+import signal
+
+from rover_simulator.simulation import Simulation
+from rover_simulator.vehicle.vehicle import STEP
+from rover_simulator.wire.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_simulator.wire.unity_client import UnityClient
+from rover_simulator.world.world import World
+
+
+class Stop:
+    """Set by SIGINT and SIGTERM."""
+
+    def __init__(self) -> None:
+        self.asked = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._ask)
+
+    def _ask(self, *_: object) -> None:
+        self.asked = True
+
+    def __call__(self) -> bool:
+        return self.asked
+
+
+class Progress:
+    """Prints where the simulation stands, once per simulated second."""
+
+    def __init__(self, simulation: Simulation, wanted: bool) -> None:
+        self._simulation = simulation
+        self._wanted = wanted
+        self._next = 0.0  # [s]
+
+    def update(self) -> None:
+        if self._simulation.time >= self._next:
+            self._next = self._simulation.time + 1.0
+            self.report()
+
+    def report(self) -> None:
+        if not self._wanted:
+            return
+        simulation = self._simulation
+        line = {
+            "time": round(simulation.time, 2),
+            "x": round(simulation.pose.x, 2),
+            "y": round(simulation.pose.y, 2),
+            "samples_left": simulation.samples_left,
+            "contacts": simulation.contacts,
+            "distance": round(simulation.distance, 2),
+        }
+        print(json.dumps(line), flush=True)
+
+
+def simulate(
+    world: World,
+    seed: int,
+    *,
+    host: str,
+    port: int,
+    rate: float | None,
+    fps: float,
+    time_limit: float,
+    progress: bool,
+) -> None:
+    """Drive in the world as the server says.
+
+    rate: times real time, None as fast as the server answers; fps: frames per simulated second;
+    time_limit [s]: of simulated time.
+    """
+    stop = Stop()
+    frame_steps = frame_steps_of(fps)
+    simulation = Simulation(world, seed, frame_steps)
+    reports = Progress(simulation, progress)
+    exchange: Exchange = FastExchange(simulation, reports.update)
+    if rate is not None:
+        exchange = TimedExchange(simulation, reports.update, frame_steps * STEP / rate)
+    keep_exchanging(
+        UnityClient(host, port), exchange, lambda: stop() or simulation.time >= time_limit
+    )
+    reports.report()
+
+
+def frame_steps_of(fps: float) -> int:
+    """Physics steps in one frame at a frame rate [1/s]."""
+    return max(1, round(1.0 / (fps * STEP)))

@@ -1,0 +1,1 @@
+"""The benchmarks of `rover bench`, declared like the other commands."""

@@ -1,0 +1,55 @@
+"""Play a recorded run into the running graph, and score what it published."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from rover_simulator.recordings.recording import Recording
+from rover_simulator.recordings.replay import Playback, play
+from rover_simulator.wire.unity_client import UnityClient
+from rover_tools.evaluation.results import Result, Truth, percentile_ms, score, write_results
+from rover_tools.progress import Progress
+from rover_tools.runner.run import Run
+
+MAP_SECONDS = 5.0  # [s] for the map with the last frame to arrive
+
+# A recording waits for its answers, and each image was taken at its own pose.
+OVERRIDES: dict[str, dict[str, object]] = {
+    "bridge_node": {"answer_deadline": 5.0},
+    "perception_node": {"image_lag": 0},
+}
+
+
+def replay(recording: Recording, run: Run, truth: Truth, in_flight: int, title: str) -> Result:
+    """Play the recording into the running graph, score what it published, write the results."""
+    playback = _play_with_progress(recording, run, in_flight)
+    run.processes.check()
+    grid = run.watch.wait_map(round(playback.last_time * 1e9), MAP_SECONDS)
+    rocks = run.watch.rocks()
+    result = {
+        "frames": playback.frames,
+        "frames_skipped": playback.skipped,
+        "frames_per_second": round(playback.frames / playback.seconds, 1),
+        "latency_ms_p50": percentile_ms(playback.latencies, 50),
+        "latency_ms_p99": percentile_ms(playback.latencies, 99),
+        **score(grid, rocks, truth),
+        "counts": run.watch.counts(),
+    }
+    track = np.array([(frame.pose.x, frame.pose.y) for frame in recording.frames])
+    write_results(run.folder, result, grid, track, rocks, truth, title)
+    return result
+
+
+def _play_with_progress(recording: Recording, run: Run, in_flight: int) -> Playback:
+    client = UnityClient(run.host, run.port)
+    client.connect(timeout=10.0)
+    answered = itertools.count(1)
+    try:
+        with Progress(len(recording.frames), "frames") as progress:
+            return play(
+                recording, client, in_flight, lambda: progress.show(next(answered), "replayed")
+            )
+    finally:
+        client.close()

@@ -1,0 +1,98 @@
+"""Run the missions that a result folder lacks, and report all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tqdm import tqdm
+
+from rover_tools.evaluation.results import Result
+from rover_tools.output import note, print_result
+from rover_tools.scoreboard.cluster import Outcome, cluster, run_all
+from rover_tools.scoreboard.errors import ScoreboardError
+from rover_tools.scoreboard.job import Job
+from rover_tools.scoreboard.mission_run import CompletedMission, failed_row
+from rover_tools.scoreboard.report import write_report
+from rover_tools.scoreboard.store import Store
+from rover_tools.scoreboard.table import as_text, summaries
+
+
+@dataclass(frozen=True)
+class Engine:
+    """Where the missions run."""
+
+    scheduler: str | None  # address of a Dask scheduler; None: processes on this machine
+    workers: int | None  # processes on this machine; None: one per core
+
+
+def run_scoreboard(jobs: Sequence[Job], folder: Path, engine: Engine, as_json: bool) -> None:
+    """Run what the folder lacks, write its report, and print the results of these jobs.
+
+    Raises ScoreboardError when missions failed, or when the folder cannot take these jobs.
+    """
+    store = Store(folder)
+    missing = store.missing(jobs)
+    note(f"{len(jobs)} missions, {len(jobs) - len(missing)} already completed; results in {folder}")
+    try:
+        if missing:
+            _run(engine, store, missing, len(jobs))
+    except KeyboardInterrupt:
+        note(f"to continue, run it again with --out {folder}")
+        raise
+    finally:
+        table = _write_report(store)
+    names = {job.name for job in jobs}
+    entries = [entry for entry in store.entries() if entry.name in names]
+    print_result([entry.result for entry in entries], as_json, table)
+    note(f"look at {folder / 'report.html'}")
+    if failed := sum(entry.failed for entry in entries):
+        raise ScoreboardError(
+            f"{failed} of {len(entries)} missions failed; they run again with --out {folder}"
+        )
+
+
+def _run(engine: Engine, store: Store, missing: Sequence[Job], total: int) -> None:
+    with (
+        cluster(engine.scheduler, engine.workers, len(missing)) as client,
+        tqdm(total=total, initial=total - len(missing), unit="mission", disable=None) as bar,
+    ):
+        bar.refresh()
+        try:
+            for job, outcome in run_all(client, missing, on_start=note):
+                _keep(store, job, outcome)
+                bar.update()
+        except KeyboardInterrupt:
+            note("stopping; the missions in progress are lost")
+            raise
+
+
+def _keep(store: Store, job: Job, outcome: Outcome) -> None:
+    """Write a mission's outcome into the folder, and print a line about it."""
+    if isinstance(outcome, CompletedMission):
+        result, picture = outcome.result, outcome.picture
+    else:
+        result, picture = failed_row(job, outcome), None
+    store.add(job, result, picture)
+    with tqdm.external_write_mode():
+        note(_line(result))
+
+
+def _line(result: Result) -> str:
+    """One mission in one line."""
+    title = f"  {result['world']} {result['strategy']}: {result['reason']}"
+    if result["time"] is None:
+        return title
+    return (
+        f"{title} after {result['time']:.0f} s, {result['samples_collected']} of "
+        f"{result['samples_total']} samples, {result['percent_mapped']:.1f} % mapped"
+    )
+
+
+def _write_report(store: Store) -> str:
+    """Report all missions that the folder holds; returns the table as text."""
+    entries = store.entries()
+    rows = summaries(entries)
+    write_report(store.folder, entries, rows)
+    return as_text(rows)
