@@ -6,18 +6,19 @@ import math
 from collections import deque
 
 from rover_common.geometry import Pose, distance_between
+from rover_navigation.scale import Scale
 from rover_navigation.types import BlockedPlace
 
-AHEAD, RADIUS = 1.0, 0.5  # [m] of a place where there was no way on
 STUCK_SECONDS, STOP_SECONDS = 90.0, 8.0  # [s] where it got stuck, or stopped in vain
 STOPS = 3  # of them mean that an obstacle is not on the map
-SAME_STOP, SAME_STOP_SECONDS = 1.0, 15.0  # [m] [s] within which they are
+SAME_STOP_SECONDS = 15.0  # [s] within which they are
 
 
 class BlockedPlaces:
     """What is blocked now."""
 
-    def __init__(self) -> None:
+    def __init__(self, scale: Scale) -> None:
+        self._scale = scale
         self.places: tuple[BlockedPlace, ...] = ()
         self._stops: deque[tuple[float, Pose]] = deque(maxlen=STOPS)  # [s] and where
 
@@ -33,17 +34,21 @@ class BlockedPlaces:
 
     def stuck(self, time: float, pose: Pose) -> None:
         """The robot got stuck: block what is ahead for a while."""
-        self.block(pose, AHEAD, RADIUS, time + STUCK_SECONDS)
+        self._block_ahead(pose, time + STUCK_SECONDS)
 
     def stopped(self, time: float, pose: Pose) -> None:
         """No way ahead. When it is so here again and again, block what is ahead."""
         self._stops.append((time, pose))
+        here = self._scale.same_stop
         near = [
-            time - before < SAME_STOP_SECONDS and distance_between(pose, place) < SAME_STOP
+            time - before < SAME_STOP_SECONDS and distance_between(pose, place) < here
             for before, place in self._stops
         ]
         if len(near) == STOPS and all(near):
-            self.block(pose, AHEAD, RADIUS, time + STOP_SECONDS)
+            self._block_ahead(pose, time + STOP_SECONDS)
+
+    def _block_ahead(self, pose: Pose, until: float) -> None:
+        self.block(pose, self._scale.blocked_ahead, self._scale.blocked_radius, until)
 
     def unblock(self) -> bool:
         """Forget what was blocked for a while; whether there was any such place."""

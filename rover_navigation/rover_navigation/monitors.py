@@ -7,13 +7,13 @@ from collections import deque
 
 from rover_common.geometry import Pose, distance_between, wrap_angle
 from rover_common.types import Command
+from rover_navigation.scale import Scale
 
-PROGRESS_DISTANCE = 0.5  # [m]
 PROGRESS_TURN = math.radians(30.0)
 # From a stand, the least throttle that is ever given moves the robot by 0.3 m in this time, and a
 # turn in place by 90 degrees.
 STALL_SECONDS = 2.0  # [s]
-STALL_DISTANCE, STALL_TURN = 0.05, math.radians(2.0)  # [m] [rad]
+STALL_TURN = math.radians(2.0)
 CIRCLE_STEERING = math.radians(8.0)  # [rad] to one side all the time
 CIRCLE_SECONDS = 10.0  # [s]
 CIRCLE_SPEED = 0.3  # [m/s] below, it turns but does not circle
@@ -23,9 +23,10 @@ ON_ONE_SPOT = 25.0  # [s] of turning and observing; no more than two full turns 
 class ProgressChecker:
     """Whether the pose has changed within a span of time."""
 
-    def __init__(self, seconds: float, turns_count: bool = True) -> None:
-        """turns_count: whether to turn in place is progress too."""
+    def __init__(self, seconds: float, distance: float, turns_count: bool = True) -> None:
+        """seconds and distance [m] of progress; turns_count: to turn in place is progress too."""
         self._seconds = seconds
+        self._distance = distance
         self._turn = PROGRESS_TURN if turns_count else math.inf
         self._trail: deque[tuple[float, Pose]] = deque()
 
@@ -38,7 +39,7 @@ class ProgressChecker:
         """Whether the whole span has passed without progress."""
         (start, _), (end, last) = self._trail[0], self._trail[-1]
         return end - start >= self._seconds and not any(
-            _moved(pose, last, self._turn, PROGRESS_DISTANCE) for _, pose in self._trail
+            _moved(pose, last, self._turn, self._distance) for _, pose in self._trail
         )
 
     def restart(self) -> None:
@@ -50,7 +51,9 @@ class ProgressChecker:
 class StallMonitor:
     """Whether something holds the robot: it is told to move, and does not move at all."""
 
-    def __init__(self) -> None:
+    def __init__(self, distance: float) -> None:
+        """distance [m] within which the robot does not move at all."""
+        self._distance = distance
         self._pose: Pose | None = None
         self._since = 0.0
 
@@ -58,7 +61,7 @@ class StallMonitor:
         """A command was given at this pose."""
         turns = command.steering_angle != 0.0 and command.brake == 0.0
         told = command.throttle != 0.0 or turns
-        if not told or self._pose is None or _moved(pose, self._pose, STALL_TURN, STALL_DISTANCE):
+        if not told or self._pose is None or _moved(pose, self._pose, STALL_TURN, self._distance):
             self._pose, self._since = pose, time
 
     def stalled(self, time: float) -> bool:
@@ -72,11 +75,11 @@ class StallMonitor:
 class MotionMonitor:
     """Whether the robot gets on: it moves when told to, makes progress, and leaves the spot."""
 
-    def __init__(self, stuck_seconds: float) -> None:
+    def __init__(self, stuck_seconds: float, scale: Scale) -> None:
         """stuck_seconds: [s] without progress."""
-        self._progress = ProgressChecker(stuck_seconds)
-        self._travel = ProgressChecker(ON_ONE_SPOT, turns_count=False)
-        self._stall = StallMonitor()
+        self._progress = ProgressChecker(stuck_seconds, scale.progress_distance)
+        self._travel = ProgressChecker(ON_ONE_SPOT, scale.progress_distance, turns_count=False)
+        self._stall = StallMonitor(scale.stall_distance)
 
     def update(self, time: float, pose: Pose) -> None:
         self._progress.update(time, pose)

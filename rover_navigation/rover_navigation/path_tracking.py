@@ -11,12 +11,11 @@ from rover_common.geometry import Pose, bearing_to
 from rover_common.types import Command
 from rover_navigation.actuation import COMFORT_DECELERATION, Actuation, approach_speed
 from rover_navigation.local_clearance import LocalClearance
+from rover_navigation.scale import Scale
 from rover_navigation.types import Path
 
 LOOKAHEAD_SECONDS = 0.8  # [s] of driving
-LOOKAHEAD = (1.2, 3.0)  # [m] least and most
 CURVE_REACH = 2  # points before and after, between which a curve is measured
-HORIZON = 15.0  # [m] of the path that decides on the speed
 CURVE_MARGIN = 0.8  # of the vehicle's sharpest curve
 # [m/s] The sharpest curve has a radius of 2.8 m at rest and of 3.4 m at this speed: to go slower
 # gains little, and where even that is too wide, the robot turns in place.
@@ -24,41 +23,51 @@ CURVE_SPEED_MIN = 1.2
 SHARP = math.radians(65.0)  # beyond, the robot turns in place
 ALIGNED = math.radians(15.0)  # until here, once it is that slow
 TURNING_SPEED = 0.3  # [m/s]
-END_REACHED = 1.0  # [m]
 SPEED_MIN = 0.4  # [m/s] on a path
-STOP_MARGIN = 0.8  # [m] between an obstacle and where the robot would stop
 
 
 class PathTracker:
     """Tracks paths with one vehicle."""
 
-    def __init__(self, actuation: Actuation, top_speed: float) -> None:
+    def __init__(self, actuation: Actuation, scale: Scale, top_speed: float) -> None:
         """top_speed [m/s] on open ground."""
         self._actuation = actuation
+        self._scale = scale
         self._top_speed = top_speed
 
     def command(self, pose: Pose, speed: float, path: Path, local: LocalClearance) -> Command:
         """The command for this frame; the path must not be empty."""
         ahead = remaining(path, pose)
-        reach = float(np.clip(LOOKAHEAD_SECONDS * abs(speed), *LOOKAHEAD))
+        scale = self._scale
+        reach = LOOKAHEAD_SECONDS * abs(speed)
+        reach = max(scale.lookahead_min, min(scale.lookahead_max, reach))
         x, y = _point_at(ahead.points, pose, reach)
         bearing, distance = bearing_to(pose, x, y), math.hypot(x - pose.x, y - pose.y)
         limit = ALIGNED if abs(speed) < TURNING_SPEED else SHARP
         if abs(bearing) > limit and distance > 0.3:
             return self._actuation.turn_in_place(speed, bearing)
         free = min(local.clearance(bearing), local.clearance(bearing / 2))
-        target = min(
-            self._top_speed, approach_speed(free - STOP_MARGIN), self._speed_along(ahead, pose)
-        )
+        in_sight = approach_speed(free - scale.stop_margin)
+        target = min(self._top_speed, in_sight, self._speed_along(ahead, pose))
         curvature = 2.0 * math.sin(bearing) / max(distance, 0.5)
         return self._actuation.drive_curve(speed, max(SPEED_MIN, target), curvature)
+
+    def bearing(self, pose: Pose, path: Path) -> float:
+        """Bearing [rad] of the path a few steps ahead of the robot."""
+        ahead = remaining(path, pose)
+        return bearing_to(pose, *_point_at(ahead.points, pose, self._scale.lookahead_min))
+
+    def at_end(self, pose: Pose, path: Path) -> bool:
+        """Whether the robot has come to the path's last point."""
+        x, y = path.points[-1]
+        return math.hypot(x - pose.x, y - pose.y) < self._scale.path_end
 
     def _speed_along(self, path: Path, pose: Pose) -> float:
         """The speed now from which all limits ahead can still be met by gentle braking."""
         points = np.concatenate([[(pose.x, pose.y)], path.points])
         steps = np.hypot(*np.diff(points, axis=0).T)
         distance = np.cumsum(steps)
-        near = distance < HORIZON
+        near = distance < self._scale.horizon
         limit = np.minimum(path.speeds, self._curve_speeds(path.points))[near]
         allowed = np.sqrt(limit**2 + 2.0 * COMFORT_DECELERATION * distance[near])
         end = approach_speed(float(distance[-1])) if near.all() else math.inf
@@ -88,18 +97,6 @@ def remaining(path: Path, pose: Pose) -> Path:
     away = np.hypot(path.points[:, 0] - pose.x, path.points[:, 1] - pose.y)
     nearest = int(np.argmin(away))
     return Path(path.points[nearest:], path.speeds[nearest:])
-
-
-def path_bearing(pose: Pose, path: Path) -> float:
-    """Bearing [rad] of the path a few steps ahead of the robot."""
-    ahead = remaining(path, pose)
-    return bearing_to(pose, *_point_at(ahead.points, pose, LOOKAHEAD[0]))
-
-
-def at_end(pose: Pose, path: Path) -> bool:
-    """Whether the robot has come to the path's last point."""
-    x, y = path.points[-1]
-    return math.hypot(x - pose.x, y - pose.y) < END_REACHED
 
 
 def path_length(path: Path, pose: Pose) -> float:

@@ -8,13 +8,10 @@ from dataclasses import dataclass
 from rover_common.geometry import Pose, bearing_to, distance_between
 from rover_common.types import Command
 from rover_navigation.actuation import Actuation
+from rover_navigation.scale import Scale
 
-CLEAR_OF = 2.0  # [m] from where it got stuck: the trouble is over
 PUSH_THROTTLE = 0.6
-SAFE_POSE_SPACING = 0.2  # [m]
 SAFE_POSES = 30  # kept
-BACK_BY = 0.7  # [m] at least, from where it tilted
-AT_SAFE_POSE = 0.4  # [m]
 ROLLING = 0.2  # [m/s] forward: too fast to be put into reverse
 
 
@@ -43,15 +40,17 @@ RECOVERY_STEPS = (
 class RecoverySequence:
     """Which step comes next: one further each time, until the robot got clear."""
 
-    def __init__(self, actuation: Actuation) -> None:
+    def __init__(self, actuation: Actuation, clear_distance: float) -> None:
+        """clear_distance: [m] from where the robot got stuck, beyond which it is clear."""
         self._actuation = actuation
+        self._clear_distance = clear_distance
         self._place: Pose | None = None
         self._index = -1
         self._side = 1  # of the turn, +1 left
 
     def advance(self, pose: Pose, wider_side: int) -> None:
         """Got stuck here; the first turn goes to the wider side, the next to the other."""
-        if self._place is None or distance_between(self._place, pose) > CLEAR_OF:
+        if self._place is None or distance_between(self._place, pose) > self._clear_distance:
             self._place, self._index, self._side = pose, 0, wider_side
         else:
             self._index, self._side = self._index + 1, -self._side
@@ -79,21 +78,29 @@ class RecoverySequence:
 class SafePoses:
     """The last level poses, to back to when the robot tilts too far."""
 
-    def __init__(self, level: float) -> None:
+    def __init__(self, level: float, scale: Scale) -> None:
         """level: [rad] of pitch or roll up to which a pose is one to back to."""
         self._level = level
+        self._scale = scale
         self._poses: list[Pose] = []
 
     def update(self, pose: Pose) -> None:
         level = max(abs(pose.pitch), abs(pose.roll)) < self._level
-        far = not self._poses or distance_between(self._poses[-1], pose) > SAFE_POSE_SPACING
+        spacing = self._scale.safe_pose_spacing
+        far = not self._poses or distance_between(self._poses[-1], pose) > spacing
         if level and far:
             self._poses = [*self._poses, pose][-SAFE_POSES:]
 
     def target(self, pose: Pose) -> Pose | None:
         """The newest that lies far enough behind."""
-        behind = (p for p in reversed(self._poses) if distance_between(p, pose) > BACK_BY)
+        away = self._scale.back_distance
+        behind = (p for p in reversed(self._poses) if distance_between(p, pose) > away)
         return next(behind, None)
+
+    def reached(self, target: Pose | None, pose: Pose) -> bool:
+        """Whether the robot is back at a target."""
+        near = self._scale.safe_pose_reached
+        return target is not None and distance_between(target, pose) < near
 
 
 def back_to(safe: Pose | None, pose: Pose, speed: float, actuation: Actuation) -> Command:
@@ -106,7 +113,3 @@ def back_to(safe: Pose | None, pose: Pose, speed: float, actuation: Actuation) -
     if abs(bearing) < math.radians(60.0):  # it slid past it
         return actuation.drive(speed, 0.5, bearing)
     return actuation.reverse_towards(bearing)
-
-
-def is_back(safe: Pose | None, pose: Pose) -> bool:
-    return safe is not None and distance_between(safe, pose) < AT_SAFE_POSE

@@ -65,6 +65,24 @@ class Scale:
     path_speed_per_clearance: float  # [1/s] of a path's speed limit
     path_speed_min: float  # [m/s] limit in the narrowest place
 
+    # Path tracking
+    lookahead_min: float  # [m]
+    lookahead_max: float  # [m]
+    horizon: float  # [m] of the path that decides on the speed
+    path_end: float  # [m] from a path's last point that counts as there
+    stop_margin: float  # [m] between an obstacle and where the robot would stop
+
+    # Progress and recovery
+    progress_distance: float  # [m] that counts as progress
+    stall_distance: float  # [m] within which the robot does not move at all
+    clear_distance: float  # [m] from where it got stuck: the trouble is over
+    back_distance: float  # [m] to back at least, from where it tilted
+    safe_pose_reached: float  # [m]
+    safe_pose_spacing: float  # [m]
+    blocked_ahead: float  # [m] of a blocked place, from where there was no way on
+    blocked_radius: float  # [m]
+    same_stop: float  # [m] within which stops are at the same place
+
     # Breadcrumbs
     breadcrumb_spacing: float  # [m]
     breadcrumb_link: float  # [m] breadcrumbs this near to each other are linked in any case

@@ -18,7 +18,7 @@ from rover_decision.missions.sample_return.wall_following import (
 from rover_decision.types import Action
 from rover_navigation.actuation import Actuation, approach_speed
 from rover_navigation.local_clearance import LocalClearance
-from rover_navigation.path_tracking import STOP_MARGIN, PathTracker, at_end, path_bearing
+from rover_navigation.path_tracking import PathTracker
 from rover_navigation.scale import Scale
 from rover_navigation.selection import NearestStop, Selection, WholeTour
 from rover_navigation.types import GoalKind
@@ -56,15 +56,16 @@ class Explorer(Protocol):
 class SightDriver:
     """Drives towards bearings, at the speed that the free ground allows."""
 
-    def __init__(self, actuation: Actuation, config: DecisionConfig) -> None:
+    def __init__(self, actuation: Actuation, scale: Scale, config: DecisionConfig) -> None:
         self.actuation = actuation
+        self._stop_margin = scale.stop_margin
         self._top_speed = config.top_speed
         self._go_clearance = config.go_clearance
 
     def towards(self, tick: TickContext, bearing: float) -> Command:
         """In a curve, the way is the corridor to its side."""
         ahead = min(tick.local.clearance(bearing), tick.local.clearance(bearing / 2))
-        speed = min(self._top_speed, approach_speed(ahead - STOP_MARGIN))
+        speed = min(self._top_speed, approach_speed(ahead - self._stop_margin))
         return self.actuation.drive(tick.speed, max(SPEED_MIN, speed), bearing)
 
     def near(self, tick: TickContext, wanted: Callable[[PolarArray], float]) -> Command | None:
@@ -112,13 +113,13 @@ class PlanExplorer:
             return 0.0
         if plan.goal is not None and self.turns_in_place(tick):
             return bearing_to(tick.pose, plan.goal.x, plan.goal.y)
-        return path_bearing(tick.pose, plan.path)
+        return self._tracker.bearing(tick.pose, plan.path)
 
     def turns_in_place(self, tick: TickContext) -> bool:
         plan = tick.plan
         if plan is None or plan.goal is None or plan.goal.kind is GoalKind.TARGET:
             return False
-        return len(plan.path) > 0 and at_end(tick.pose, plan.path)
+        return len(plan.path) > 0 and self._tracker.at_end(tick.pose, plan.path)
 
     def drive(self, tick: TickContext) -> Action:
         plan = tick.plan

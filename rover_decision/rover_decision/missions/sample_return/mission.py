@@ -13,7 +13,7 @@ from rover_decision.missions.sample_return.chart import Event, Machine, State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states import make_states
-from rover_decision.missions.sample_return.tick import StateBehavior, TickContext
+from rover_decision.missions.sample_return.tick import TickContext
 from rover_decision.types import Decision, Frame, Overlay, Progress, Request
 from rover_navigation.monitors import CIRCLE_SPEED
 from rover_navigation.plan_scheduler import MakeRequest, PlanStatus
@@ -37,8 +37,8 @@ class SampleReturnMission:
         self._entered = 0.0  # [s] when
         self._time_limit = config.time_limit
         self._return_requested = False  # to be done when what goes on has come to its end
-        self._parts: Parts | None = None  # from the first frame on, which tells where home is
-        self._states: dict[State, StateBehavior] = {}
+        self._parts = Parts.of(config)
+        self._states = make_states(config, self._parts)
         self._tick: TickContext | None = None  # the newest
 
     @property
@@ -71,21 +71,20 @@ class SampleReturnMission:
 
     def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
         """Decide about one frame."""
-        parts = self._parts or self._begin(frame)
-        tick = self._observe(parts, frame, plans)
+        parts = self._parts
+        tick = self._observe(frame, plans)
         event = self._states[self.state].event(tick)
         if event is not None and self._machine.handle(event):
-            tick = self._enter(parts, tick)
+            tick = self._enter(tick)
         command, reason = self._states[self.state].act(tick)
         driving = self.state is State.FORWARD and abs(tick.speed) > CIRCLE_SPEED
         parts.circle.commanded(tick.time, command.steering_angle, driving)
         parts.motion.commanded(tick.time, tick.pose, command)
         self._tick = tick
-        return Decision(command, self.state, reason, self._progress(parts, tick))
+        return Decision(command, self.state, reason, self._progress(tick))
 
     def plan_request(self, frame: Frame) -> MakeRequest:
         """What a plan is to be made of, as things stand at this frame; the map comes later."""
-        assert self._parts is not None, "asked for before the first frame"
         parts, time = self._parts, frame.time
         by_breadcrumbs = parts.home_paths.method.by_breadcrumbs
         return partial(
@@ -107,7 +106,7 @@ class SampleReturnMission:
     def overlay(self) -> Overlay:
         """What it knows about places."""
         parts, tick = self._parts, self._tick
-        if parts is None or tick is None:
+        if tick is None:
             return Overlay(NO_POINTS)
         path = None if tick.plan is None else tick.plan.path
         if self._machine.heading_home:
@@ -118,25 +117,20 @@ class SampleReturnMission:
     def _heads_home(self) -> bool:
         return self._machine.heading_home or self._return_requested
 
-    def _begin(self, frame: Frame) -> Parts:
-        self._parts = Parts.of(self._config, frame)
-        self._states = make_states(self._config, self._parts)
-        return self._parts
-
-    def _observe(self, parts: Parts, frame: Frame, plans: PlanStatus) -> TickContext:
+    def _observe(self, frame: Frame, plans: PlanStatus) -> TickContext:
         """Bring all that is remembered up to date."""
+        parts = self._parts
         homeward = self.state in HOMEWARD
         health, plan = parts.update(frame, plans, homeward)
         if self.state in APPROACHING:
             parts.samples.spend(frame, health.gap)
-        elapsed = frame.time - parts.begun
         tick = TickContext(
             frame=frame,
             plan=plan,
             local=parts.local_clearance(frame),
             health=health,
             rock=parts.samples.nearest(frame),
-            time_left=self._time_limit - elapsed,
+            time_left=self._time_limit - parts.elapsed,
             since=frame.time - self._entered,
             heading_home=self._machine.heading_home,
             return_requested=self._return_requested,
@@ -144,23 +138,23 @@ class SampleReturnMission:
         exploring = self.state in EXPLORING and not self._return_requested
         parts.completion.update(tick, exploring)
         if self.state is not self._entered_state:  # a request came in between
-            return self._enter(parts, tick)
+            return self._enter(tick)
         self._states[self.state].update(tick)
         return tick
 
-    def _enter(self, parts: Parts, tick: TickContext) -> TickContext:
+    def _enter(self, tick: TickContext) -> TickContext:
         """A new state begins at this frame."""
         before, self._entered_state = self._entered_state, self.state
         self._entered = tick.time
-        parts.motion.restart(tick.time, may_stay=bool({before, self.state} - TO_AND_FRO))
+        self._parts.motion.restart(tick.time, may_stay=bool({before, self.state} - TO_AND_FRO))
         tick = replace(tick, since=0.0, heading_home=self._machine.heading_home)
         self._states[self.state].enter(tick, before)
         return tick
 
-    def _progress(self, parts: Parts, tick: TickContext) -> Progress:
-        samples = parts.samples
+    def _progress(self, tick: TickContext) -> Progress:
+        parts, samples = self._parts, self._parts.samples
         return Progress(
-            elapsed=tick.time - parts.begun,
+            elapsed=parts.elapsed,
             explored=parts.explored,
             samples_total=samples.total,
             samples_collected=samples.collected,

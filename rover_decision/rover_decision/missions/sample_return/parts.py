@@ -29,11 +29,9 @@ SAFE_TILT = 0.5  # of the limit: a pose to back to
 
 @dataclass
 class Parts:
-    """Made at the run's first frame; each part is one idea and knows nothing of the others."""
+    """Each part is one idea and knows nothing of the others."""
 
     config: DecisionConfig
-    begun: float  # [s] of the first frame
-    home: tuple[float, float]  # [m] where that was
     samples: Samples
     motion: MotionMonitor
     completion: Completion
@@ -47,22 +45,23 @@ class Parts:
     inputs: InputMonitor = field(default_factory=InputMonitor)
     circle: CircleMonitor = field(default_factory=CircleMonitor)
     scale: Scale = ROVER_SCALE
+    begun: float | None = None  # [s] of the first frame
+    home: tuple[float, float] = (0.0, 0.0)  # [m] where that was
+    elapsed: float = 0.0  # [s] since then
     explored: float = 0.0  # 0..1, as the newest plan estimates it
 
     @classmethod
-    def of(cls, config: DecisionConfig, frame: Frame) -> Parts:
-        """As the parameters say, from this frame on."""
+    def of(cls, config: DecisionConfig) -> Parts:
+        """As the parameters say."""
         samples = Samples(ROVER.arm_forward, config.rock_deadline, config.retry_after)
-        goals, blocked = GoalHistory(ROVER_SCALE), BlockedPlaces()
+        goals, blocked = GoalHistory(ROVER_SCALE), BlockedPlaces(ROVER_SCALE)
         return cls(
             config=config,
-            begun=frame.time,
-            home=(frame.pose.x, frame.pose.y),
             samples=samples,
-            motion=MotionMonitor(config.stuck_seconds),
+            motion=MotionMonitor(config.stuck_seconds, ROVER_SCALE),
             completion=Completion(samples, goals, blocked, config.search_limit),
             home_paths=HomePaths(config.way_home),
-            safe_poses=SafePoses(SAFE_TILT * config.tilt_limit),
+            safe_poses=SafePoses(SAFE_TILT * config.tilt_limit, ROVER_SCALE),
             goals=goals,
             blocked=blocked,
             breadcrumbs=Breadcrumbs(ROVER_SCALE.breadcrumb_spacing),
@@ -75,6 +74,9 @@ class Parts:
         homeward: the trail and the goals no longer matter.
         """
         time, pose = frame.time, frame.pose
+        if self.begun is None:
+            self.begun, self.home = time, (pose.x, pose.y)
+        self.elapsed = time - self.begun
         self.inputs.update(time, pose)
         self.motion.update(time, pose)
         self.safe_poses.update(pose)
@@ -95,7 +97,7 @@ class Parts:
         return LocalClearance.of(frame.scan, self.config.corridor)
 
     def _health(self, frame: Frame, plans: PlanStatus) -> Health:
-        begun = round(self.begun * 1e9)
+        begun = frame.stamp - round(self.elapsed * 1e9)
         planned = begun if plans.plan is None else plans.plan.stamp
         return Health(
             pose=frame.pose,

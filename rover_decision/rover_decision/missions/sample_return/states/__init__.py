@@ -30,8 +30,8 @@ def make_states(config: DecisionConfig, parts: Parts) -> dict[State, StateBehavi
     """One object for each state of the chart."""
     limits = Limits(config.tilt_limit, GAP_SECONDS, JUMP, config.plan_max_age, config.plan_max_age)
     actuation = parts.actuation
-    tracker = PathTracker(actuation, config.top_speed)
-    sight = SightDriver(actuation, config)
+    tracker = PathTracker(actuation, parts.scale, config.top_speed)
+    sight = SightDriver(actuation, parts.scale, config)
     explorer = make_explorer(config, tracker, sight)
     homeward = HomewardDriver(tracker, sight, config.stop_clearance, config.go_clearance)
     exploring = (limits, explorer, parts, config)
@@ -42,14 +42,10 @@ def make_states(config: DecisionConfig, parts: Parts) -> dict[State, StateBehavi
         State.CIRCLE: Circle(*exploring, sight),
         State.ROCK_APPROACH: RockApproach(limits, parts.completion, actuation, config.rock_range),
         State.PICKUP: Pickup(actuation.vehicle.standing_speed),
-        State.STUCK: Stuck(
-            RecoverySequence(actuation), parts.blocked, parts.goals, parts.home_paths
-        ),
+        State.STUCK: Stuck(RecoverySequence(actuation, parts.scale.clear_distance), parts),
         State.TILT: Tilt(parts.safe_poses, parts.blocked, actuation),
         State.HOLD: Hold(limits, explorer.needs_plan),
-        State.RETURN_HOME: ReturnHome(
-            limits, parts.home_paths, homeward, parts.home, config.home_radius
-        ),
+        State.RETURN_HOME: ReturnHome(limits, homeward, parts, config.home_radius),
         State.DONE: Standing("the mission is over"),
         State.PAUSED: Standing("paused"),
     }

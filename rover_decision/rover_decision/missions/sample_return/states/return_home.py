@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from rover_decision.missions.sample_return.chart import Event, State
-from rover_decision.missions.sample_return.home_paths import HomePaths, HomewardDriver
+from rover_decision.missions.sample_return.home_paths import HomewardDriver
+from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states.moving import Moving
 from rover_decision.missions.sample_return.tick import TickContext
 from rover_decision.trouble import MOTION, Limits
@@ -16,16 +17,15 @@ class ReturnHome(Moving):
     def __init__(
         self,
         limits: Limits,
-        paths: HomePaths,
         driver: HomewardDriver,
-        home: tuple[float, float],
+        parts: Parts,
         home_radius: float,
     ) -> None:
-        """home: [m] where the mission began; home_radius: [m] that counts as there."""
+        """home_radius: [m] that counts as there."""
         super().__init__(limits, MOTION)
-        self._paths = paths
+        self._paths = parts.home_paths
         self._driver = driver
-        self._home = home
+        self._parts = parts
         self._home_radius = home_radius
 
     def enter(self, tick: TickContext, before: State) -> None:
@@ -33,11 +33,11 @@ class ReturnHome(Moving):
         self.update(tick)
 
     def update(self, tick: TickContext) -> None:
-        self._paths.update(tick.time, tick.pose, self._home, tick.plan)
+        self._paths.update(tick.time, tick.pose, self._parts.home, tick.plan)
 
     def _own_event(self, tick: TickContext) -> Event | None:
-        distance = math.dist(self._home, (tick.pose.x, tick.pose.y))
+        distance = math.dist(self._parts.home, (tick.pose.x, tick.pose.y))
         return Event.arrived if distance < self._home_radius else None
 
     def act(self, tick: TickContext) -> Action:
-        return self._driver.drive(tick, self._paths.method, self._home)
+        return self._driver.drive(tick, self._paths.method, self._parts.home)

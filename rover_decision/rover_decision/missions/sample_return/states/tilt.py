@@ -8,7 +8,7 @@ from rover_decision.missions.sample_return.tick import StateBehavior, TickContex
 from rover_decision.types import Action
 from rover_navigation.actuation import Actuation
 from rover_navigation.blocked_places import BlockedPlaces
-from rover_navigation.recovery import SafePoses, back_to, is_back
+from rover_navigation.recovery import SafePoses, back_to
 
 AHEAD, RADIUS = 0.6, 0.5  # [m] of the place that is blocked
 DEADLINE = 6.0  # [s]
@@ -27,7 +27,7 @@ class Tilt(StateBehavior):
         self._blocked.block(tick.pose, AHEAD, RADIUS)
 
     def event(self, tick: TickContext) -> Event | None:
-        back = is_back(self._safe_pose, tick.pose)
+        back = self._safe_poses.reached(self._safe_pose, tick.pose)
         return Event.recovered if back or tick.since > DEADLINE else None
 
     def act(self, tick: TickContext) -> Action:
