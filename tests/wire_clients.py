@@ -131,7 +131,7 @@ def unity_answers(port: int, count: int) -> list[dict[str, str]]:
                 sent += 1
         assert client.receive(timeout=QUIET) is None, "more answers than telemetries"
     finally:
-        client.close(say_goodbye=True)
+        client.close(graceful=True)
     return answers
 
 

@@ -7,7 +7,7 @@ import signal
 
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.vehicle import STEP
-from rover_simulator.wire.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_simulator.wire.pacing import LockstepPacing, Pacing, TimedPacing, run_connected
 from rover_simulator.wire.unity_client import UnityClient
 from rover_simulator.world.world import World
 
@@ -66,7 +66,7 @@ def simulate(
     time_limit: float,
     progress: bool,
 ) -> None:
-    """Drive in the world as the server says.
+    """Drive in the world as the server commands.
 
     rate: times real time, None as fast as the server answers; fps: frames per simulated second;
     time_limit [s]: of simulated time.
@@ -75,12 +75,10 @@ def simulate(
     frame_steps = frame_steps_of(fps)
     simulation = Simulation(world, seed, frame_steps)
     reports = Progress(simulation, progress)
-    exchange: Exchange = FastExchange(simulation, reports.update)
+    pacing: Pacing = LockstepPacing(simulation, reports.update)
     if rate is not None:
-        exchange = TimedExchange(simulation, reports.update, frame_steps * STEP / rate)
-    keep_exchanging(
-        UnityClient(host, port), exchange, lambda: stop() or simulation.time >= time_limit
-    )
+        pacing = TimedPacing(simulation, reports.update, frame_steps * STEP / rate)
+    run_connected(UnityClient(host, port), pacing, lambda: stop() or simulation.time >= time_limit)
     reports.report()
 
 

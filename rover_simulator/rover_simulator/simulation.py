@@ -11,16 +11,16 @@ from rover_common.vehicle import ROVER
 from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.vehicle.arm import Arm
-from rover_simulator.vehicle.command_values import check_base64, parse_number
 from rover_simulator.vehicle.fixed_turn import FixedTurn
 from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
+from rover_simulator.wire.command_values import check_base64, parse_number
 from rover_simulator.wire.telemetry_format import format_telemetry
 from rover_simulator.world import boulders
 from rover_simulator.world.terrain import Terrain
 from rover_simulator.world.world import World
 
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
-INSETS = ("inset_image1", "inset_image2", "inset_image3")  # shown on its screen by the original
+INSETS = ("inset_image1", "inset_image2", "inset_image3")  # the original shows them on its screen
 CONTACT_HEIGHT = 0.1  # [m] of ground under the rover that counts as touching a wall
 CONTACT_SECONDS = 0.5  # [s] after which another touch is another contact
 
@@ -43,15 +43,14 @@ class Simulation:
         self.distance = 0.0  # [m] driven
         self._untouched = math.inf  # [s] since the last touch
         self._image = b""
-        self._photographed_at: Pose | None = None  # None: the next picture is another in any case
+        self._captured_at: Pose | None = None  # None: the next image differs in any case
         self._first_row: Callable[[Pose], int] = lambda _: 0
-        self._next_image = self._photograph()
+        self._next_image = self._capture()
 
-    def crop_pictures(self, first_row: Callable[[Pose], int]) -> None:
-        """Render the next pictures from a row on that depends on the camera's pose.
+    def crop_images(self, first_row: Callable[[Pose], int]) -> None:
+        """Render only the rows of an image from `first_row(pose)` on, for a reader of these alone.
 
-        Above, where nobody looks, they are black. From that row on, the decoded JPEG file has the
-        same pixels as that of the whole picture.
+        They decode to the same pixels as those of the whole image; rows far above stay black.
         """
         self._first_row = first_row
 
@@ -64,18 +63,18 @@ class Simulation:
         return len(self._arm.samples)
 
     def advance(self) -> None:
-        """One rendered frame: its physics, then its picture."""
+        """One rendered frame: its physics, then its image."""
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)
         if self._arm.lifted is not None and self._renderer.hide_sample(*self._arm.lifted):
-            self._photographed_at = None
+            self._captured_at = None
         self.time += self._frame_steps * STEP
         self._image = self._next_image
-        self._next_image = self._photograph()
+        self._next_image = self._capture()
 
     def telemetry(self) -> dict[str, str]:
-        """Of this frame, with the picture of the one before."""
+        """Of this frame, with the image of the one before."""
         vehicle, controls = self._vehicle, self._controls
         return format_telemetry(
             pose=vehicle.pose,
@@ -92,7 +91,7 @@ class Simulation:
         )
 
     def handle(self, event: str, data: Mapping[str, Any]) -> bool:
-        """Take an event of the server; whether it is answered with a telemetry.
+        """Apply an event of the server; whether a telemetry answers it.
 
         Values that cannot be parsed lose their answer, as in the original; those before them are
         applied.
@@ -134,7 +133,7 @@ class Simulation:
             self._arm.start(self._vehicle.pose)
 
     def _turn_fixed(self, data: Mapping[str, Any]) -> None:
-        """Only a rover that stands, and is told nothing else, turns."""
+        """Only a rover that stands still, with all controls at zero, turns."""
         clockwise = math.radians(parse_number(data["angle"]))
         seconds = parse_number(data.get("time", "0"))
         standing = self._vehicle.reported_speed == 0.0
@@ -171,12 +170,12 @@ class Simulation:
         pose = self._vehicle.pose
         return self._terrain.height_at_point(pose.x, pose.y)
 
-    def _photograph(self) -> bytes:
+    def _capture(self) -> bytes:
         """What the camera sees now; a body that is held sees the same as a frame ago."""
         pose = self._vehicle.pose
-        if pose == self._photographed_at:
+        if pose == self._captured_at:
             return self._next_image
-        self._photographed_at = pose
+        self._captured_at = pose
         first_row = first_row_to_encode(self._first_row(pose))
         rendering = self._renderer.render(pose, self._ground_height(), first_row)
         return encode_jpeg(rendering.image)

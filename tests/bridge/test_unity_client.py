@@ -119,7 +119,7 @@ def test_goodbye(wire):
     client, server = wire
     server.frame()
     server.send('42["manual",{}]')  # left unread, it must not cut the goodbye off
-    client.close(say_goodbye=True)
+    client.close(graceful=True)
     assert [server.frame().payload for _ in range(2)] == [b"41", b"1"]
     assert server.frame().opcode == 0x8
     assert server.ended()

@@ -262,7 +262,7 @@ def yellow_pixels(simulation: Simulation) -> int:
     return int((red - blue > 60).sum())
 
 
-def test_a_sample_that_is_lifted_leaves_the_picture():
+def test_a_sample_that_is_lifted_disappears_from_the_image():
     simulation = simulation_of((101.2, 100.0), (104.0, 101.0))
     simulation.advance()
     both = yellow_pixels(simulation)
@@ -271,6 +271,6 @@ def test_a_sample_that_is_lifted_leaves_the_picture():
     for _ in range(int(2.5 / FRAME)):
         simulation.advance()
     assert yellow_pixels(simulation) == both
-    for _ in range(2):  # the picture is one frame older
+    for _ in range(2):  # the image is one frame older
         simulation.advance()
     assert 5 < yellow_pixels(simulation) < both / 5

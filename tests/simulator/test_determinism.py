@@ -69,7 +69,7 @@ def over_the_wire(folder: Path) -> list[dict[str, str]]:
     ]  # fmt: skip
     process = subprocess.Popen(command)
     try:
-        telemetries = exchanged(server)
+        telemetries = received(server)
         process.terminate()
         assert process.wait(END_SECONDS) == 0
     finally:
@@ -80,7 +80,7 @@ def over_the_wire(folder: Path) -> list[dict[str, str]]:
     return telemetries
 
 
-def exchanged(server: RawServer) -> list[dict[str, str]]:
+def received(server: RawServer) -> list[dict[str, str]]:
     wire = server.accept(timeout=60)
     first = wire.telemetry()
     wire.send(HANDSHAKE)

@@ -27,7 +27,7 @@ PEER = Path(__file__).parent / "peer"
 REQUIREMENTS = PEER / "requirements.txt"
 ENVIRONMENT = ROOT / ".venv-peer"
 
-EXCHANGES = 500
+TELEMETRIES = 500
 RUN_SECONDS = 120  # [s] of wall time; it takes about ten
 INSTALL_SECONDS = 120
 END_SECONDS = 10
@@ -92,13 +92,13 @@ def ended_after(process: subprocess.Popen[str]) -> Iterator[subprocess.Popen[str
         process.communicate()
 
 
-def exchanged(peer_python: str, folder: Path, rate: str) -> list[tuple[str, object]]:
-    """What the peer noted of its exchanges with `rover sim`."""
+def recorded_events(peer_python: str, folder: Path, rate: str) -> list[tuple[str, object]]:
+    """The events that the peer recorded in a run with `rover sim`."""
     record = folder / "record.jsonl"
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port, descriptor = listener.getsockname()[1], listener.fileno()
         peer = subprocess.Popen(
-            [peer_python, PEER / "server.py", str(descriptor), str(EXCHANGES), record],
+            [peer_python, PEER / "server.py", str(descriptor), str(TELEMETRIES), record],
             pass_fds=[descriptor], env=own_environment(), stderr=subprocess.PIPE, text=True,
         )  # fmt: skip
     simulator = [
@@ -116,7 +116,7 @@ def exchanged(peer_python: str, folder: Path, rate: str) -> list[tuple[str, obje
 
 @pytest.fixture(scope="module")
 def fast_record(peer_python, tmp_path_factory) -> list[tuple[str, object]]:
-    return exchanged(peer_python, tmp_path_factory.mktemp("fast"), "fast")
+    return recorded_events(peer_python, tmp_path_factory.mktemp("fast"), "fast")
 
 
 def telemetries(record) -> list[dict[str, str]]:
@@ -125,7 +125,7 @@ def telemetries(record) -> list[dict[str, str]]:
 
 def test_every_value_is_a_string_and_the_keys_are_in_order(fast_record):
     received = telemetries(fast_record)
-    assert len(received) == EXCHANGES
+    assert len(received) == TELEMETRIES
     assert all(list(telemetry) == KEYS for telemetry in received)
     assert all(isinstance(value, str) for telemetry in received for value in telemetry.values())
 
@@ -133,13 +133,13 @@ def test_every_value_is_a_string_and_the_keys_are_in_order(fast_record):
 def test_fast_each_command_is_answered_once_and_by_the_next_frame(fast_record):
     received = telemetries(fast_record)
     commands = [steering for name, steering in fast_record if name == "data"]
-    assert len(commands) == EXCHANGES
+    assert len(commands) == TELEMETRIES
     # Two telemetries come unasked, of one frame; the command that comes unasked is one of the two
     # that the next frame answers together.
     steering = [telemetry["steering_angle"] for telemetry in received]
     assert steering == ["0.0000"] * 2 + commands[1:-1]
     times = [round(float(telemetry["sim_time"]) / FRAME) for telemetry in received]
-    assert times == [times[0], *range(times[0], times[0] + EXCHANGES - 1)]
+    assert times == [times[0], *range(times[0], times[0] + TELEMETRIES - 1)]
 
 
 def test_fast_the_images_are_jpegs_of_the_cameras_size(fast_record):
@@ -148,15 +148,15 @@ def test_fast_the_images_are_jpegs_of_the_cameras_size(fast_record):
         assert (image[:2], image[-2:]) == (b"\xff\xd8", b"\xff\xd9")
         decoded = cv2.imdecode(np.frombuffer(image, np.uint8), cv2.IMREAD_COLOR)
         assert decoded.shape == (160, 320, 3)
-    assert len(set(images)) > EXCHANGES / 2  # it moves
+    assert len(set(images)) > TELEMETRIES / 2  # it moves
 
 
-def test_timed_each_command_is_answered_once_and_no_frame_twice_by_one_token(peer_python, tmp_path):
-    record = exchanged(peer_python, tmp_path, "4")
+def test_timed_each_command_is_answered_once_and_by_a_later_frame(peer_python, tmp_path):
+    record = recorded_events(peer_python, tmp_path, "4")
     received = telemetries(record)
     commands = [steering for name, steering in record if name == "data"]
-    assert len(received) == len(commands) == EXCHANGES
+    assert len(received) == len(commands) == TELEMETRIES
     times = [round(float(telemetry["sim_time"]) / FRAME) for telemetry in received]
     assert times == sorted(times)
-    tokens = 3  # two telemetries and one command, all unasked
-    assert all(later > earlier for earlier, later in zip(times, times[tokens:], strict=False))
+    pending = 3  # two telemetries and one command, all unasked
+    assert all(later > earlier for earlier, later in zip(times, times[pending:], strict=False))

@@ -1,4 +1,4 @@
-"""Rendered pictures: sky above, bright sand below, dark walls between, as measured."""
+"""Rendered images: sky above, bright sand below, dark walls between, as measured."""
 
 import math
 
@@ -9,8 +9,8 @@ from rover_common.geometry import Pose
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.sensors.shading import sky_colors
 from rover_simulator.world.generator import generate_world
-from rover_simulator.world.profile import height_at, spread_at
 from rover_simulator.world.terrain import COUNT, SAMPLE_GROUND, SPACING, Terrain
+from rover_simulator.world.wall_profile import height_at, spread_at
 from rover_simulator.world.world import World
 
 HALL = np.zeros((200, 200), bool)
@@ -95,7 +95,7 @@ def test_rays_to_the_bare_floor_need_no_search(renderer, monkeypatch):
     assert np.abs(short - renderer.render(pose).image).max() <= 1
 
 
-def test_objects_show_in_all_columns_of_the_image_that_see_them(terrain, monkeypatch):
+def test_objects_are_traced_in_every_column_that_shows_them(terrain, monkeypatch):
     ground = HALL.copy()
     ground[100, 104] = False  # a boulder
     renderer = Renderer(World("objects", ground, np.array([[98.0, 99.0]]), START), terrain)
@@ -103,9 +103,9 @@ def test_objects_show_in_all_columns_of_the_image_that_see_them(terrain, monkeyp
     poses = [
         Pose(x - away * math.cos(yaw), y - away * math.sin(yaw), yaw + aside, pitch, roll)
         for x, y in ((104.5, 100.5), (98.0, 99.0))
-        for away in (0.2, 0.6, 1.0, 2.0, 6.0)
+        for away in (0.2, 0.8, 5.0)
         for yaw in (-2.0, 0.5)
-        for aside in (-0.9, 0.0, 0.9, 2.5)
+        for aside in (-0.9, 0.0, 0.9)
         for pitch, roll in random.normal(0.0, 0.1, (1, 2))
     ]
     quick = [renderer.render(pose) for pose in poses]
@@ -139,7 +139,7 @@ def test_the_height_at_one_point_is_that_of_many_to_the_bit():
 
 
 def test_samples_stand_where_the_ground_is_low_and_show():
-    sample = np.array([[141.9, 101.3]])  # on the foot of the hall's east wall
+    sample = np.array([[141.9, 101.3]])  # at the base of the hall's east wall
     plain = Terrain.of(HALL, 3)
     low = Terrain.of(HALL, 3, samples=sample)
     assert plain.height_at(sample[:, 0], sample[:, 1]) > 0.2

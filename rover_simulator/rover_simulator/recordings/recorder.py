@@ -73,11 +73,11 @@ def _row(name: str, pose: Pose) -> tuple[object, ...]:
 
 
 def _poses(world: World, frames: int) -> list[Pose]:
-    """Poses along the way, the body rocking as it does in turns and under throttle."""
-    way = _way_into_the_longest_arm(world)
-    length = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))])
+    """Poses along the path, the body rocking as it does in turns and under throttle."""
+    path = _path_into_longest_arm(world)
+    length = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
     at = np.minimum(np.arange(frames) * FRAME_PERIOD * SPEED, length[-1] - 0.5)
-    along = interp1d(length, way, axis=0)
+    along = interp1d(length, path, axis=0)
     points, ahead = along(at), along(at + 0.5)
     yaw = np.arctan2(*(ahead - points).T[::-1])
     phase = 2 * math.pi * np.arange(frames) * FRAME_PERIOD / ROCKING_PERIOD
@@ -86,10 +86,10 @@ def _poses(world: World, frames: int) -> list[Pose]:
     return [Pose(*(float(value) for value in row)) for row in zip(*columns, strict=True)]
 
 
-def _way_into_the_longest_arm(world: World) -> NDArray[np.float64]:
-    """Points (n, 2) [m] from the start to the cell that is farthest to drive to, off the walls."""
-    room = ndimage.distance_transform_edt(world.navigable)
-    cost = np.where(world.navigable, 1.0 + 4.0 / np.maximum(room, 0.5) ** 2, np.inf)
+def _path_into_longest_arm(world: World) -> NDArray[np.float64]:
+    """Points (n, 2) [m] from the start to the cell with the longest path, away from walls."""
+    clearance = ndimage.distance_transform_edt(world.navigable)
+    cost = np.where(world.navigable, 1.0 + 4.0 / np.maximum(clearance, 0.5) ** 2, np.inf)
     search = MCP_Geometric(cost)
     costs, _ = search.find_costs([(int(world.start.y), int(world.start.x))])
     costs[~np.isfinite(costs)] = -1

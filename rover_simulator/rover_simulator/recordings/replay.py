@@ -24,7 +24,7 @@ class NoAnswerError(RoverError):
 
 @dataclass(frozen=True)
 class Playback:
-    """What came of it."""
+    """The outcome of a replay."""
 
     frames: int  # sent, and answered
     skipped: int  # rows of the log, and images, that could not be used

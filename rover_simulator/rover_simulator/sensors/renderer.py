@@ -18,8 +18,8 @@ from rover_common.grid import WORLD
 from rover_simulator.sensors.meshes import SKY
 from rover_simulator.sensors.scene import GROUND, Scene
 from rover_simulator.sensors.shading import SUN, ground_colors, noise, shine, sky_colors
-from rover_simulator.world.profile import sand_at
 from rover_simulator.world.terrain import Terrain
+from rover_simulator.world.wall_profile import sand_at
 from rover_simulator.world.world import World
 
 BOULDER = np.array([17, 13, 10.0], np.float32)

@@ -20,7 +20,7 @@ WALL_LIT, WALL_SHADOW = np.array([41, 28, 24], np.float32), np.array([19, 12, 9]
 # Sand by range [m]: brighter at the wheels, darker far ahead, as shares of that at 2.5 m.
 SAND_RANGE = (0.4, 0.65, 1.0, 2.5, 4.0, 6.5, 10.0)
 SAND_GAIN = (1.035, 1.03, 1.015, 1.0, 0.985, 0.97, 0.91)
-# Sand shines where one looks away from the sun: 252 245 234 there, 227 207 192 to the side.
+# Sand is brighter in views away from the sun: 252 245 234 there, 227 207 192 to the side.
 SHEEN = np.array([24, 27, 29.0], np.float32)  # [levels] above the mean
 SHEEN_AT = SUN_AZIMUTH + math.radians(155)
 SHEEN_TO = np.array([math.cos(SHEEN_AT), math.sin(SHEEN_AT)], np.float32)
@@ -38,7 +38,7 @@ WALL_TEXTURE, WALL_RUST = 0.38, 0.02  # shares of its colour: of light, and of r
 def ground_colors(sand: NDArray[np.float32], shade: NDArray[np.float32]) -> NDArray[np.float32]:
     """Colours (rows, cols, 3) of the ground from above, from its shares 0..1 of sand and shadow.
 
-    The texture is laid on from above, so that it is drawn out on the steep walls, as in the
+    The texture is projected from above, so that it is stretched on steep walls, as in the
     original.
     """
     lit = sand[..., None] * (SAND_LIT - WALL_LIT) + WALL_LIT
@@ -58,7 +58,7 @@ def ground_colors(sand: NDArray[np.float32], shade: NDArray[np.float32]) -> NDAr
 
 def noise(shape: tuple[int, ...], sigma: float, seed: int) -> NDArray[np.float32]:
     """Smooth noise (rows, cols) of mean 0 and standard deviation 1; sigma in cells."""
-    step = max(1, int(sigma / 2))  # wide noise is made coarse and spread out: it takes a while
+    step = max(1, int(sigma / 2))  # wide noise is made on a coarser grid, for speed
     coarse = (-(-shape[0] // step), -(-shape[1] // step))
     values = np.random.default_rng(seed).standard_normal(coarse, np.float32)
     smooth = np.asarray(cv2.GaussianBlur(values, (0, 0), sigma / step))

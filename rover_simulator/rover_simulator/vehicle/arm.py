@@ -22,10 +22,10 @@ FLATBED_RADIUS = SHOULDER_FORWARD - 0.061  # [m] behind the shoulder: the middle
 
 
 class Arm:
-    """Holds the samples not yet collected, and the sequence that runs."""
+    """The samples not yet collected, and the sequence in progress."""
 
     def __init__(self, samples: list[Point]) -> None:
-        self.samples = samples  # as the telemetry lists them; the one that is held moves
+        self.samples = samples  # as the telemetry lists them; one in the gripper moves
         self._held: _Held | None = None
         self._left = 0.0  # [s] of the sequence
         self.frozen = False  # a pickup without a sample near never ends
@@ -42,7 +42,7 @@ class Arm:
         return self._held.found
 
     def near_sample(self, pose: Pose) -> bool:
-        if self.picking_up:  # not looked at again before the sequence ends
+        if self.picking_up:  # not checked again before the sequence ends
             return self._held is not None
         return self._in_reach(pose) is not None
 
@@ -57,7 +57,7 @@ class Arm:
             self._left = ROVER.pickup_seconds
 
     def advance(self, seconds: float) -> None:
-        """Time goes on; the sample leaves the lists one frame before the sequence ends."""
+        """Advance the time; the sample leaves the lists one frame before the sequence ends."""
         if self._left <= 0.0:
             return
         self._left = round(self._left - seconds, 6)  # so that whole frames add up
@@ -82,7 +82,7 @@ class Arm:
 
 @dataclass(frozen=True)
 class _Held:
-    """The sample of the sequence, and its way around the shoulder of a standing rover."""
+    """The sample of the sequence, and its path around the shoulder of a standing rover."""
 
     index: int  # in the list of samples
     found: Point
@@ -102,7 +102,7 @@ class _Held:
         return cls(index, found, shoulder, math.hypot(dx, dy), bearing, pose.yaw)
 
     def position(self, elapsed: float) -> Point:
-        """Where it is, `elapsed` [s] after the sequence began."""
+        """Where the sample is, `elapsed` [s] after the sequence began."""
         if elapsed <= GRIPPED:
             return self.found
         lifting = _share(elapsed, GRIPPED, LIFTED)
@@ -119,5 +119,5 @@ class _Held:
 
 
 def _share(time: float, start: float, end: float) -> float:
-    """How much of a phase is over at this time, 0..1."""
+    """Share of a phase that is over at this time, 0..1."""
     return min(1.0, max(0.0, (time - start) / (end - start)))

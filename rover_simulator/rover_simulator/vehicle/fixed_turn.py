@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-# Where the event gives no time, the turn goes at this rate.
+# The rate of a turn whose event gives no time.
 DEFAULT_RATE = math.radians(45.0)  # [rad/s]
 
 
 class FixedTurn:
-    """The turn that runs, if one does."""
+    """The turn in progress, if there is one."""
 
     def __init__(self) -> None:
         self._angle = 0.0  # [rad] still to go, counter-clockwise positive

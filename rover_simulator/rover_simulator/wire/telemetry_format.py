@@ -56,7 +56,7 @@ def format_telemetry(
         "image": base64.b64encode(image).decode("ascii"),
     }
     if sim_time is not None:
-        # Not the simulator's, so without its groups of thousands: others read it as a plain number.
+        # Not the original's key, so without groups of thousands: a plain number for any reader.
         telemetry["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
     return telemetry
 

@@ -1,7 +1,7 @@
 """Connect to a rover server exactly as the Unity simulator does.
 
-The dialect is Engine.IO 3 behind a query that says 4: the client sends the pings, never a
-Socket.IO connect packet, and splits its long messages into WebSocket continuation frames.
+The query says Engine.IO 4, but the packets are those of Engine.IO 3: the client sends the pings and
+no Socket.IO connect packet. It splits long messages into WebSocket continuation frames.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ PING_PERIOD = 25.0  # [s] after each pong
 RECONNECT_PAUSE = 0.005  # [s]
 CONNECT_TIMEOUT = 5.0  # [s]
 SEND_TIMEOUT = 5.0  # [s]
-GOODBYE_TIMEOUT = 0.5  # [s] for the server's side of the closing handshake
+CLOSE_TIMEOUT = 0.5  # [s] for the server's side of the closing handshake
 SHORTEST_WAIT = 0.001  # [s]
 
 # Each of these events is answered with exactly one telemetry.
@@ -70,18 +70,18 @@ class UnityClient:
         self._next_ping = None
 
     def connect_until(
-        self, stopped: Callable[[], bool], meanwhile: Callable[[], None] = lambda: None
+        self, stopped: Callable[[], bool], while_waiting: Callable[[], None] = lambda: None
     ) -> bool:
-        """Try again and again, as the simulator does; False when `stopped` came first.
+        """Try until it succeeds, as the simulator does; False when `stopped` came first.
 
-        `meanwhile` is called between two tries.
+        `while_waiting` is called between two attempts.
         """
         while not stopped():
             try:
                 self.connect(timeout=CONNECT_TIMEOUT)
             except ConnectionLostError:
                 self.close()
-                meanwhile()
+                while_waiting()
                 time.sleep(RECONNECT_PAUSE)
             else:
                 return True
@@ -93,9 +93,9 @@ class UnityClient:
         self._send("42" + arguments)
 
     def receive(self, timeout: float) -> Event | None:
-        """The next event, or None after `timeout` [s]; 0 looks for what is there already.
+        """The next event, or None after `timeout` [s]; 0 takes only what has already arrived.
 
-        Answers and sends pings on the way. Raises ConnectionLostError, and ProtocolError after
+        Answers and sends pings meanwhile. Raises ConnectionLostError, and ProtocolError after
         closing the socket.
         """
         end = time.monotonic() + timeout
@@ -114,21 +114,21 @@ class UnityClient:
         assert raw_socket is not None
         return int(raw_socket.fileno())
 
-    def close(self, say_goodbye: bool = False) -> None:
-        """Close the socket; `say_goodbye` sends what the application sends when it is quit."""
+    def close(self, graceful: bool = False) -> None:
+        """Close the socket; `graceful` sends first what the application sends when it is quit."""
         if self._socket is None:
             return
-        if say_goodbye:
+        if graceful:
             with contextlib.suppress(ConnectionLostError):
                 self._send("41")
                 self._send("1")
-            # Ends only after the server has, so that nothing unread cuts the goodbye off.
-            self._socket.close(timeout=GOODBYE_TIMEOUT)
+            # Ends only after the server has: unread data would reset the connection before.
+            self._socket.close(timeout=CLOSE_TIMEOUT)
         self._socket.shutdown()
         self._socket = None
 
     def _event(self, message: str) -> Event | None:
-        """What a message means; None for those without consequence."""
+        """The event of a message; None for messages that are no event."""
         if message.startswith("42"):
             return self._parse_event(message[2:])
         if message.startswith("0"):
@@ -137,7 +137,7 @@ class UnityClient:
             self._send("3")
         elif message.startswith("3"):
             self._next_ping = time.monotonic() + PING_PERIOD
-        return None  # also 40, the connect acknowledgement, which the simulator ignores
+        return None  # as for 40, the acknowledgement of a connect packet
 
     def _parse_open(self, text: str) -> Event:
         handshake = _parse_json(text)
@@ -160,7 +160,7 @@ class UnityClient:
 
     def _receive_text(self, timeout: float) -> str | None:
         socket = self._connected()
-        # Wakes for a ping that falls due; 0 would mean a socket that raises instead of waiting.
+        # Wakes up for a ping that is due; 0 would mean a socket that raises instead of waiting.
         socket.settimeout(min(max(timeout, SHORTEST_WAIT), 1.0))
         try:
             opcode, data = socket.recv_data()

@@ -1,4 +1,4 @@
-"""Worlds: canyons drawn from a seed, and maps given as a picture.
+"""Worlds: canyons drawn from a seed, and maps from an image file.
 
 A drawn canyon has an open centre, winding arms with dead ends, loops, and small rocks in the open.
 """
@@ -17,7 +17,7 @@ from scipy import ndimage
 from rover_common.geometry import Pose
 from rover_common.grid import WORLD
 from rover_common.ground_truth import load_truth
-from rover_simulator.world.samples import place_samples
+from rover_simulator.world.sample_placement import place_samples
 from rover_simulator.world.world import World
 
 SCALE = 4  # pixels per metre while drawing
@@ -25,31 +25,31 @@ BORDER = 15.0  # [m] kept free of canyon at the world's edge
 ARMS = 4
 PILLAR_SHARE = 0.5  # of the worlds have a chamber with a pillar: a loop to drive around
 BOULDERS = 5  # holes of one or two cells
-BOULDER_DEPTH = 2.5  # [m] from the walls at least, so that there is a way past it on both sides
+BOULDER_DEPTH = 2.5  # [m] from the walls at least, so that it can be passed on both sides
 BOULDER_FROM_START = 4.0  # [m]
 
 Point = NDArray[np.float64]
-Picture = NDArray[np.uint8]
+Canvas = NDArray[np.uint8]
 
 
 def generate_world(seed: int, size: float = 1.0) -> World:
     """The canyon of a seed; `size` scales the length of its arms, 1 for that of the original."""
     random = default_rng(seed)
     center = random.uniform(85, 115, 2)
-    picture = np.zeros((200 * SCALE, 200 * SCALE), np.uint8)
-    _chamber(picture, center, random.uniform(6, 9), random)
+    canvas = np.zeros((200 * SCALE, 200 * SCALE), np.uint8)
+    _chamber(canvas, center, random.uniform(6, 9), random)
     heading = random.uniform(0, 2 * math.pi)
     ends: list[Point] = []
     for arm in range(ARMS):
         angle = heading + arm * 2 * math.pi / ARMS + random.normal(0, 0.25)
-        end, angle = _corridor(picture, center, angle, size * random.uniform(50, 85), random)
-        _chamber(picture, end, random.uniform(3, 6), random)
+        end, angle = _corridor(canvas, center, angle, size * random.uniform(50, 85), random)
+        _chamber(canvas, end, random.uniform(3, 6), random)
         aside = angle + random.choice((-1, 1)) * random.uniform(0.9, 1.4)
-        _corridor(picture, end, aside, size * random.uniform(8, 16), random)
+        _corridor(canvas, end, aside, size * random.uniform(8, 16), random)
         ends.append(end)
     if random.random() < PILLAR_SHARE:
-        _pillared_chamber(picture, ends[int(random.integers(ARMS))], random)
-    navigable = _to_cells(picture, center)
+        _pillared_chamber(canvas, ends[int(random.integers(ARMS))], random)
+    navigable = _to_cells(canvas, center)
     _place_boulders(navigable, center, random)
     start = Pose(float(center[0]), float(center[1]), float(random.uniform(-math.pi, math.pi)))
     return World(f"seed-{seed}", navigable, place_samples(navigable, start, random), start)
@@ -82,7 +82,7 @@ def world_on_ground(truth: NDArray[np.bool_], name: str, seed: int) -> World:
 
 
 def _corridor(
-    picture: Picture, start: Point, angle: float, length: float, random: Generator
+    canvas: Canvas, start: Point, angle: float, length: float, random: Generator
 ) -> tuple[Point, float]:
     """Draw a winding corridor; returns its end [m] and its last direction [rad]."""
     point = np.array(start, float)
@@ -96,30 +96,30 @@ def _corridor(
         if np.any(point < BORDER) or np.any(point > 200 - BORDER):
             angle = to_middle
         point = point + np.array([math.cos(angle), math.sin(angle)])
-        cv2.circle(picture, _pixel(point), round(width / 2 * SCALE), 255, -1)
+        cv2.circle(canvas, _pixel(point), round(width / 2 * SCALE), 255, -1)
     return point, angle
 
 
-def _chamber(picture: Picture, center: Point, radius: float, random: Generator) -> None:
+def _chamber(canvas: Canvas, center: Point, radius: float, random: Generator) -> None:
     for _ in range(6):
         offset = random.normal(0, radius / 2.5, 2)
-        cv2.circle(picture, _pixel(center + offset), round(radius * 0.7 * SCALE), 255, -1)
-    cv2.circle(picture, _pixel(center), round(radius * 0.6 * SCALE), 255, -1)
+        cv2.circle(canvas, _pixel(center + offset), round(radius * 0.7 * SCALE), 255, -1)
+    cv2.circle(canvas, _pixel(center), round(radius * 0.6 * SCALE), 255, -1)
 
 
-def _pillared_chamber(picture: Picture, center: Point, random: Generator) -> None:
+def _pillared_chamber(canvas: Canvas, center: Point, random: Generator) -> None:
     radius = random.uniform(7.0, 9.0)
-    cv2.circle(picture, _pixel(center), round(radius * SCALE), 255, -1)
-    cv2.circle(picture, _pixel(center), round((radius - 4.5) * SCALE), 0, -1)
+    cv2.circle(canvas, _pixel(center), round(radius * SCALE), 255, -1)
+    cv2.circle(canvas, _pixel(center), round((radius - 4.5) * SCALE), 0, -1)
 
 
 def _pixel(point: Point) -> tuple[int, int]:
     return round(float(point[0]) * SCALE), round(float(point[1]) * SCALE)
 
 
-def _to_cells(picture: Picture, center: Point) -> NDArray[np.bool_]:
+def _to_cells(canvas: Canvas, center: Point) -> NDArray[np.bool_]:
     """Navigable cells of 1 m: smooth outlines, one connected region."""
-    smooth = cv2.GaussianBlur(picture, (0, 0), 0.8 * SCALE)
+    smooth = cv2.GaussianBlur(canvas, (0, 0), 0.8 * SCALE)
     cells = smooth.reshape(200, SCALE, 200, SCALE).mean(axis=(1, 3)) > 127
     labels, _ = ndimage.label(cells)
     return np.asarray(labels == labels[int(center[1]), int(center[0])])

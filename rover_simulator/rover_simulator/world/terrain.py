@@ -12,17 +12,17 @@ from scipy import ndimage
 
 from rover_simulator.vehicle.vehicle import Slope
 from rover_simulator.world.boulders import boulder_cells
-from rover_simulator.world.profile import MAP_MARGIN, height_at, spread_at
+from rover_simulator.world.wall_profile import MAP_MARGIN, height_at, spread_at
 
 SPACING = 0.390625  # [m] between heights, 513 of them over 200 m, as in the original
 COUNT = 513
 FINE = 8  # distances are measured on a grid of 1/8 m
 # The relief: shares of noise of these widths [m]. Skylines of the original are round over metres.
 RELIEF_WIDTHS, RELIEF_SHARES = (1.5, 5.0, 15.0), (0.15, 0.5, 1.0)
-# [m] The original's samples stand at the floor's height, also on the foot of a wall, but somebody
-# chose their places so that they show: only 4 of 33 are where the ground is higher than this.
+# [m] The original's samples stand at the floor's height, also at the base of a wall, but their
+# places were chosen so that they are visible: only 4 of 33 are on ground that is higher than this.
 SAMPLE_GROUND = 0.08
-SAMPLE_REACH = (SPACING * math.sqrt(2), 2.0)  # [m] around one that is as low, and that is lowered
+SAMPLE_REACH = (SPACING * math.sqrt(2), 2.0)  # [m] around a sample: as low, and lowered at all
 NO_SAMPLES = np.empty((0, 2))
 
 
@@ -42,7 +42,7 @@ class Terrain:
         """Build it from the median profile of walls. Boulders stand on its floor.
 
         relief: factors (513, 513) of the heights; without it they are drawn from the seed, with
-        the spread that was measured. samples: points (n, 2) [m], around which it is low.
+        the spread that was measured. samples: points (n, 2) [m], around which the ground is low.
         """
         floor = _floor(navigable | boulder_cells(navigable))
         inside = ndimage.distance_transform_edt(floor) / FINE

@@ -21,7 +21,7 @@ MAP_NAME, WORLD_NAME = "map.png", "world.yaml"
 
 
 class WorldError(RoverError, ValueError):
-    """A world's folder that cannot be read."""
+    """The folder of a world cannot be read."""
 
 
 @dataclass(frozen=True)

@@ -65,7 +65,7 @@ class Loop:
     ) -> None:
         """`core` takes the place of the one that `decision` describes."""
         self.simulation = simulation
-        simulation.crop_pictures(first_row_read)
+        simulation.crop_images(first_row_read)
         self.perception = Perception(perception or PerceptionConfig())
         self.core = core or make_core(decision or DecisionConfig(), lockstep=True)
         self._run = FIRST_RUN

@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_common.geometry import Pose
-from rover_simulator.world.profile import MAP_MARGIN
+from rover_simulator.world.wall_profile import MAP_MARGIN
 
 SAMPLES = 6
-# Samples of the original stand at the floor's height at the foot of walls; further out than this
+# Samples of the original stand at the floor's height at the base of walls; further out than this
 # the ground would bury them.
 BEYOND_FLOOR = 0.3  # [m]
 DEPTH = 1.5  # [m] inside the map
 FROM_START = 12.0  # [m]
 APART = 10.0  # [m]
-CELLS = 8  # a metre is divided into as many, to find out how far a point is from the map
+CELLS = 8  # per metre, in which distances from the map are measured
 
 
 def place_samples(
@@ -44,7 +44,7 @@ def place_samples(
 def _away_from_boulders(
     navigable: NDArray[np.bool_], inside: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """Points with room for the rover between them and a rock in the open."""
+    """Points that leave clearance for the rover between them and a rock in the open."""
     holes = np.kron(~navigable, np.ones((CELLS, CELLS), bool)) & inside
     if not holes.any():
         return np.ones_like(inside)

@@ -1,4 +1,4 @@
-"""The exchange over a socket: tokens, reconnects, and what bad input does to both."""
+"""Telemetries over a socket: pending ones, reconnects, and what bad input does to both."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from raw_server import HANDSHAKE, PING, WAIT, RawServer, Wire
 
 from rover_common.geometry import Pose
 from rover_simulator.simulation import Simulation
-from rover_simulator.wire.exchange import Exchange, FastExchange, TimedExchange, keep_exchanging
+from rover_simulator.wire.pacing import LockstepPacing, Pacing, TimedPacing, run_connected
 from rover_simulator.wire.unity_client import UnityClient
 from rover_simulator.world.world import World
 
@@ -20,12 +20,12 @@ FRAME = 0.04  # [s]
 MANUAL = '42["manual",{}]'
 DRIVE = {"steering_angle": "0", "throttle": "0.2", "brake": "0"}
 
-Start = Callable[[Exchange], RawServer]
+Start = Callable[[Pacing], RawServer]
 
 
 @pytest.fixture(scope="module")
 def simulation() -> Simulation:
-    """One for all tests, because making one takes seconds; each looks at differences only."""
+    """One for all tests, because making one takes seconds; each compares before and after."""
     hall = np.zeros((200, 200), bool)
     hall[80:121, 20:181] = True
     return Simulation(World("hall", hall, np.zeros((0, 2)), Pose(30, 100, 0)), 0, 2)
@@ -33,21 +33,21 @@ def simulation() -> Simulation:
 
 @pytest.fixture
 def start() -> Iterator[Start]:
-    """Runs an exchange in a thread, against a raw server."""
+    """Runs a pacing in a thread, against a raw server."""
     server = RawServer()
     ended = threading.Event()
     threads: list[threading.Thread] = []
 
-    def run(exchange: Exchange) -> RawServer:
+    def run(pacing: Pacing) -> RawServer:
         client = UnityClient("127.0.0.1", server.port)
-        thread = threading.Thread(target=keep_exchanging, args=(client, exchange, ended.is_set))
+        thread = threading.Thread(target=run_connected, args=(client, pacing, ended.is_set))
         threads.append(thread)
         thread.start()
         return server
 
     yield run
     ended.set()
-    server.close()  # also ends a wait of the client's
+    server.close()  # also ends a receive of the client
     for thread in threads:
         thread.join()
 
@@ -56,16 +56,16 @@ def nothing() -> None:
     pass
 
 
-def fast(simulation: Simulation) -> FastExchange:
-    return FastExchange(simulation, nothing)
+def lockstep(simulation: Simulation) -> LockstepPacing:
+    return LockstepPacing(simulation, nothing)
 
 
-def timed(simulation: Simulation) -> TimedExchange:
-    return TimedExchange(simulation, nothing, period=0.02)
+def timed(simulation: Simulation) -> TimedPacing:
+    return TimedPacing(simulation, nothing, period=0.02)
 
 
 def opened(server: RawServer) -> Wire:
-    """A connection over which the two unsolicited telemetries have come."""
+    """A connection that has received the two telemetries that come unasked."""
     wire = server.accept()
     assert wire.message() == PING
     first = wire.telemetry()
@@ -79,34 +79,34 @@ def time_of(telemetry: dict[str, str]) -> float:
     return float(telemetry["sim_time"])
 
 
-def test_the_first_words(simulation, start):
-    server = start(fast(simulation))
+def test_a_telemetry_follows_the_open_socket_and_the_handshake(simulation, start):
+    server = start(lockstep(simulation))
     wire = server.accept()
     assert wire.message() == PING
     assert wire.message().startswith('42["telemetry",')  # as the socket opens
     wire.send(HANDSHAKE)
     assert wire.message().startswith('42["telemetry",')
     wire.send("2")
-    assert wire.message() == "3"  # and no telemetry that nobody asked for
+    assert wire.message() == "3"  # and no further telemetry
 
 
-def test_fast_answers_the_first_two_together_and_then_one_by_one(simulation, start):
-    wire = opened(start(fast(simulation)))
+def test_lockstep_answers_the_first_two_together_and_then_one_by_one(simulation, start):
+    wire = opened(start(lockstep(simulation)))
     before = simulation.time
     wire.send(MANUAL)
     wire.send(PING)
-    assert wire.message() == "3"  # the other one is still waited for
+    assert wire.message() == "3"  # the other telemetry is still pending
     wire.send(MANUAL)
     for count in range(1, 6):
         assert time_of(wire.telemetry()) == pytest.approx(before + count * FRAME)
-        wire.emit("get_samples", {})  # ignored, as all that is unknown
+        wire.emit("get_samples", {})  # ignored, as every unknown event
         wire.emit("data", DRIVE)
 
 
-def test_fast_goes_on_with_the_token_that_is_left(simulation, start):
-    wire = opened(start(fast(simulation)))
+def test_lockstep_goes_on_while_one_telemetry_is_pending(simulation, start):
+    wire = opened(start(lockstep(simulation)))
     before = simulation.time
-    wire.emit("data", DRIVE | {"throttle": 0.2})  # a JSON number: this token dies
+    wire.emit("data", DRIVE | {"throttle": 0.2})  # a JSON number: loses its answer
     wire.emit("data", DRIVE)
     assert time_of(wire.telemetry()) == pytest.approx(before + FRAME)
 
@@ -121,8 +121,8 @@ def test_fast_goes_on_with_the_token_that_is_left(simulation, start):
     ],
     ids=str,
 )
-@pytest.mark.parametrize("kind", [fast, timed])
-def test_when_all_tokens_are_dead_the_server_may_begin_anew(simulation, start, kind, bad):
+@pytest.mark.parametrize("kind", [lockstep, timed])
+def test_a_new_command_gets_a_telemetry_after_all_others_lost_theirs(simulation, start, kind, bad):
     wire = opened(start(kind(simulation)))
     wire.emit("data", bad)
     wire.emit("data", bad)
@@ -147,16 +147,16 @@ def test_timed_sends_one_telemetry_for_each_answer(simulation, start):
     assert np.allclose(steps, np.round(steps), atol=1e-3)
     assert (np.round(steps) >= 0).all()
     counts = np.unique(np.round(np.array(times) / FRAME), return_counts=True)[1]
-    assert counts.max() <= 3  # each token at most once per frame
+    assert counts.max() <= 3  # one telemetry for each event, in each frame
     for _ in range(3):
         wire.telemetry()
     wire.send(PING)
     assert wire.message() == "3"
 
 
-@pytest.mark.parametrize("kind", [fast, timed])
+@pytest.mark.parametrize("kind", [lockstep, timed])
 @pytest.mark.parametrize("bad", ['42["data",5]', '42["data",{},{}]', "42[]", "0{}"])
-def test_an_event_of_the_wrong_shape_costs_the_connection_only(simulation, start, kind, bad):
+def test_an_event_of_the_wrong_shape_closes_the_connection_only(simulation, start, kind, bad):
     server = start(kind(simulation))
     before = simulation.time
     wire = opened(server)
@@ -167,12 +167,12 @@ def test_an_event_of_the_wrong_shape_costs_the_connection_only(simulation, start
     again.send(MANUAL)
     again.send(MANUAL)
     telemetry = again.telemetry()
-    assert telemetry["steering_angle"] == "7.0000"  # what it held, it holds
+    assert telemetry["steering_angle"] == "7.0000"  # the controls are kept
     assert time_of(telemetry) > before
 
 
-@pytest.mark.parametrize("kind", [fast, timed])
-def test_a_compressed_frame_costs_the_connection_only(simulation, start, kind):
+@pytest.mark.parametrize("kind", [lockstep, timed])
+def test_a_compressed_frame_closes_the_connection_only(simulation, start, kind):
     server = start(kind(simulation))
     wire = opened(server)
     wire.send(MANUAL, first=0xC1)
@@ -180,9 +180,8 @@ def test_a_compressed_frame_costs_the_connection_only(simulation, start, kind):
     opened(server)
 
 
-def test_the_server_restarts_and_the_rover_is_where_it_was(simulation, start):
-    exchange = fast(simulation)
-    server = start(exchange)
+def test_the_rover_is_where_it_was_after_a_restart_of_the_server(simulation, start):
+    server = start(lockstep(simulation))
     wire = opened(server)
     wire.send(MANUAL)
     wire.emit("data", DRIVE | {"throttle": "1"})
@@ -201,16 +200,16 @@ def test_the_server_restarts_and_the_rover_is_where_it_was(simulation, start):
 
 
 def opened_telemetry(server: RawServer) -> dict[str, str]:
-    """The telemetry that comes as the socket opens."""
+    """The telemetry that is sent as the socket opens."""
     wire = server.accept()
     assert wire.message() == PING
     return wire.telemetry()
 
 
-def test_without_a_server_the_rover_drives_on(simulation, start):
+def test_the_rover_drives_on_without_a_server(simulation, start):
     """In real time, as the original has no watchdog."""
     frames = threading.Semaphore(0)
-    server = start(TimedExchange(simulation, frames.release, period=0.02))
+    server = start(TimedPacing(simulation, frames.release, period=0.02))
     wire = opened(server)
     wire.emit("data", DRIVE | {"throttle": "1"})
     last = wire.telemetry()
@@ -230,7 +229,7 @@ def test_without_a_server_the_rover_drives_on(simulation, start):
     assert float(first["speed"]) > 0.5
 
 
-def test_a_flood_of_events_does_not_stop_the_time(simulation, start):
+def test_simulated_time_passes_during_a_flood_of_events(simulation, start):
     wire = opened(start(timed(simulation)))
     before = simulation.time
     end = time.monotonic() + WAIT

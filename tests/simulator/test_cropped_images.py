@@ -1,4 +1,4 @@
-"""Pictures of which only the lower rows are rendered: what is read of them is as in whole ones."""
+"""Images of which only the lower rows are rendered: these rows are as in whole images."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def decoded(image: NDArray[np.uint8]) -> NDArray[Any]:
 
 
 @pytest.mark.parametrize(("pitch_deg", "roll_deg"), TILTS_DEG)
-def test_rows_below_the_crop_decode_as_in_the_whole_picture(renderer, world, pitch_deg, roll_deg):
+def test_rows_below_the_crop_decode_as_in_the_whole_image(renderer, world, pitch_deg, roll_deg):
     pose = tilted(world.start, pitch_deg, roll_deg)
     whole = renderer.render(pose).image
     for row in {first_row_read(pose), 16, 17, 65, 80, 152}:
@@ -56,19 +56,19 @@ def test_rows_below_the_crop_decode_as_in_the_whole_picture(renderer, world, pit
         assert np.array_equal(decoded(cropped)[row:], decoded(whole)[row:])
 
 
-def test_little_more_is_rendered_than_what_is_read():
+def test_at_most_one_jpeg_block_is_rendered_above_the_rows_read():
     level = Pose(100.0, 100.0, 0.0)
     assert first_row_to_encode(first_row_read(level)) == 64
 
 
 @pytest.mark.parametrize("pitch_deg", [-80, 80, 180])
-def test_a_camera_that_sees_no_ground_or_nothing_else_is_no_error(pitch_deg):
+def test_the_first_row_read_is_valid_at_extreme_pitch(pitch_deg):
     assert 0 <= first_row_read(Pose(100.0, 100.0, 0.0, pitch=math.radians(pitch_deg))) <= 152
 
 
-def test_decisions_are_the_same_with_whole_pictures(world):
+def test_decisions_are_the_same_with_whole_images(world):
     cropped, whole = (Loop(Simulation(world, SEED, 4)) for _ in range(2))
-    whole.simulation.crop_pictures(lambda _: 0)
+    whole.simulation.crop_images(lambda _: 0)
     try:
         for _ in range(FRAMES):
             first, second = cropped.exchange(), whole.exchange()

@@ -1,4 +1,4 @@
-"""The exchange with the server, frame by frame: which telemetry is sent, and when time passes."""
+"""How simulated time passes, and which telemetry is sent when, over one connection or several."""
 
 from __future__ import annotations
 
@@ -16,39 +16,39 @@ from rover_simulator.wire.unity_client import (
     UnityClient,
 )
 
-WAIT = 0.5  # [s] between looks whether to end
+POLL_PERIOD = 0.5  # [s] within which an end without an event is noticed
 
 Ended = Callable[[], bool]
 
 
-class Exchange(Protocol):
-    """One way for time to pass."""
+class Pacing(Protocol):
+    """What makes simulated time pass."""
 
     def run(self, client: UnityClient, ended: Ended) -> None:
-        """Over a fresh connection, until the end; raises what the client raises."""
+        """Serve a new connection until the end; raises what the client raises."""
 
-    def meanwhile(self) -> None:
+    def while_disconnected(self) -> None:
         """Called often while there is no connection."""
 
 
-def keep_exchanging(client: UnityClient, exchange: Exchange, ended: Ended) -> None:
+def run_connected(client: UnityClient, pacing: Pacing, ended: Ended) -> None:
     """Connect, and connect again whenever the connection is lost, until the end."""
-    while client.connect_until(ended, exchange.meanwhile):
+    while client.connect_until(ended, pacing.while_disconnected):
         try:
-            exchange.run(client, ended)
+            pacing.run(client, ended)
         except (ConnectionLostError, ProtocolError) as error:
             client.close()
             print(f"rover sim: {error}; connecting again", file=sys.stderr)
         else:
-            client.close(say_goodbye=True)
+            client.close(graceful=True)
             return
 
 
-class FastExchange:
-    """As fast as the server answers: one telemetry in flight, and one frame for each answer.
+class LockstepPacing:
+    """As fast as the server answers: one telemetry is pending, and each answer makes one frame.
 
-    The two telemetries that the original sends unasked on connecting are both sent and both
-    waited for, but answered with one: with one in flight a run depends on the commands alone.
+    The original sends two telemetries unasked when it connects. Both are sent and both have to be
+    answered, but only one telemetry follows: with one pending, a run depends on the commands alone.
     """
 
     def __init__(self, simulation: Simulation, on_frame: Callable[[], None]) -> None:
@@ -58,30 +58,30 @@ class FastExchange:
     def run(self, client: UnityClient, ended: Ended) -> None:
         simulation = self._simulation
         client.send_telemetry(simulation.telemetry())
-        in_flight = 1
-        owed = False  # an answer of the server that is to be answered by the next frame
+        pending = 1  # telemetries that the server has not answered
+        accepted = False  # whether an event came that the next frame answers
         while not ended():
-            event = client.receive(WAIT)
+            event = client.receive(POLL_PERIOD)
             if event is None:
                 continue
             if event.name == OPEN:
                 client.send_telemetry(simulation.telemetry())
-                in_flight += 1
+                pending += 1
             elif event.name in ANSWERED_EVENTS:
-                # A command that cannot be parsed is an answer too, but one that gets none.
-                in_flight = max(0, in_flight - 1)
-                owed |= simulation.handle(event.name, event.data)
-            if owed and in_flight == 0:
+                # A command that cannot be parsed answers a telemetry too, but gets no answer.
+                pending = max(0, pending - 1)
+                accepted |= simulation.handle(event.name, event.data)
+            if accepted and pending == 0:
                 simulation.advance()
                 self._on_frame()
                 client.send_telemetry(simulation.telemetry())
-                in_flight, owed = 1, False
+                pending, accepted = 1, False
 
-    def meanwhile(self) -> None:
-        """Time stands still."""
+    def while_disconnected(self) -> None:
+        """Simulated time stands still."""
 
 
-class TimedExchange:
+class TimedPacing:
     """Frames at a period of wall time, whether the server answers or not."""
 
     def __init__(self, simulation: Simulation, on_frame: Callable[[], None], period: float) -> None:
@@ -89,33 +89,33 @@ class TimedExchange:
         self._simulation = simulation
         self._on_frame = on_frame
         self._period = period
-        self._next_frame: float | None = None  # none before the first connection
+        self._next_frame: float | None = None  # None before the first connection
 
     def run(self, client: UnityClient, ended: Ended) -> None:
         simulation = self._simulation
         client.send_telemetry(simulation.telemetry())
         if self._next_frame is None:
             self._next_frame = time.monotonic() + self._period
-        tokens = 0  # each is a telemetry that the next frame sends
+        due = 0  # telemetries to send with the next frame
         while not ended():
             event = client.receive(max(0.0, self._next_frame - time.monotonic()))
             if event is not None:
-                tokens += event.name == OPEN or simulation.handle(event.name, event.data)
-            if self._advance_when_due():  # also where the events never pause
+                due += event.name == OPEN or simulation.handle(event.name, event.data)
+            if self._advance_when_due():  # also while events arrive without a pause
                 telemetry = simulation.telemetry()
-                for _ in range(tokens):
+                for _ in range(due):
                     client.send_telemetry(telemetry)
-                tokens = 0
+                due = 0
 
-    def meanwhile(self) -> None:
-        """The rover drives on by what it was told last, as the original's does."""
+    def while_disconnected(self) -> None:
+        """The rover drives on under its last command, as in the original."""
         self._advance_when_due()
 
     def _advance_when_due(self) -> bool:
         now = time.monotonic()
         if self._next_frame is None or now < self._next_frame:
             return False
-        # A machine that is too slow runs slower than it should, not ever further behind.
+        # A machine that is too slow falls behind real time, but does not try to catch up.
         self._next_frame = max(self._next_frame + self._period, now - self._period)
         self._simulation.advance()
         self._on_frame()

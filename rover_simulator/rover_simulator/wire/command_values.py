@@ -1,4 +1,4 @@
-"""The values of a command as the Unity simulator parses them: strings, or an exception."""
+"""Values of a command, parsed as the Unity simulator does: strings only, or an exception."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import base64
 import re
 from typing import Any
 
-# Its numbers are 32 bits wide; what is beyond overflows.
+# Its numbers are 32 bits wide; larger ones overflow.
 LARGEST = 3.4028235e38
 # Narrower than Python's: no underscores, no digits of other scripts, no names for infinity.
 NUMBER = re.compile(r"\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*")
