@@ -31,6 +31,14 @@ from rclpy.parameter import Parameter  # noqa: E402
 WAIT = 10.0  # [s] what a test waits at most for a thing to happen
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--update-golden",
+        action="store_true",
+        help="write the expected results of the golden replay anew",
+    )
+
+
 def domain_id() -> int:
     """A DDS domain of this test process's own; below 100, clear of the ephemeral ports."""
     worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
