@@ -31,7 +31,7 @@ def refusal(time_limit: float, current: MissionGoal | None) -> str:
     if current is None:
         return ""
     if current.canceled:
-        return "the goal before is canceled, the rover is still on its way home"
+        return "the goal before is canceled, the rover still heads home"
     return "the mission already runs for another goal: cancel that one first"
 
 

@@ -153,7 +153,7 @@ class DecisionNode(Node):
         self._show(frame)
 
     def _show(self, frame: Frame) -> None:
-        """Plan and markers, for who looks."""
+        """Plan and markers, while subscribed."""
         overlay = self._core.mission.overlay()
         if self._plan.get_subscription_count() > 0 and overlay.path is not None:
             self._plan.publish(path_message_of(frame.stamp, overlay.path))

@@ -12,7 +12,7 @@ from rover_navigation.types import PlanFailed
 
 @dataclass(frozen=True)
 class Health:
-    """What the detectors look at, at one frame."""
+    """What the detectors see at one frame."""
 
     pose: Pose
     gap: float  # [s] from the frame before

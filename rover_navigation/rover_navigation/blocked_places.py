@@ -37,7 +37,7 @@ class BlockedPlaces:
         self._block_ahead(pose, time + STUCK_SECONDS)
 
     def stopped(self, time: float, pose: Pose) -> None:
-        """No way ahead. When it is so here again and again, block what is ahead."""
+        """No free ground ahead. Block what is ahead when that is so here again and again."""
         self._stops.append((time, pose))
         here = self._scale.same_stop
         near = [

@@ -33,7 +33,7 @@ class Frontier:
         return len(self.x)
 
     def leads_on(self, scale: Scale) -> bool:
-        """Whether there may be a way on behind it; else it is a strip along a wall."""
+        """Whether more ground may lie behind it; else it is a strip along a wall."""
         return int(np.count_nonzero(self.open)) >= scale.frontier_length / self.resolution
 
     def hidden_area(self, scale: Scale) -> float:
@@ -49,7 +49,7 @@ def find_frontiers(
 ) -> list[Frontier]:
     """All borders of some length, the longest first; `blacklisted` (n, 3) as for in_discs.
 
-    A shorter border is no way on, and what it hides is not worth the time to get there.
+    No passage is as narrow as a shorter border, and what it hides is not worth the time.
     """
     # Unknown slivers of less than three cells vanish: they are grazed walls.
     unknown = np.asarray(

@@ -14,7 +14,7 @@ from rover_navigation.scale import Scale
 from rover_navigation.types import Goal, GoalKind, Plan
 
 OBSERVE_SECONDS = 1.0  # [s] of facing a goal, after which what there was to see has been seen
-OUT_OF_REACH = 60.0  # [s] on the way to one goal
+OUT_OF_REACH = 60.0  # [s] of driving to one goal
 BLACKLIST_SECONDS = 150.0  # [s] after which a goal may be tried again that was seen from near
 RETRY_SECONDS = 20.0  # [s] the same, of one that was observed from afar for the first time
 

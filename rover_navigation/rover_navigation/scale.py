@@ -29,7 +29,7 @@ class Scale:
     turn_seconds: float  # [s] to stop for a turn in place, and to gather speed again
 
     # Frontiers
-    frontier_length: float  # [m] of the shortest border that may be a way on
+    frontier_length: float  # [m] of the shortest border that may be a passage
     strip_depth: float  # [m] of ground between the base of a wall as seen from afar and the wall
     frontier_reach: float  # [m] from where a frontier can be observed
     unknown_depth: float  # [m] of ground guessed behind each metre of a frontier
@@ -56,7 +56,7 @@ class Scale:
     goal_underfoot: float  # [m] nearer than this a goal need not be faced
     goal_radius_min: float  # [m] of the disc that an observation without result settles
     goal_radius_per_distance: float  # of that disc: the wider the farther off
-    goal_afar: float  # [m] a goal observed from farther off may still be a way on
+    goal_afar: float  # [m] a goal observed from farther off may still be a passage
 
     # Paths
     path_clearance: float  # [m] wanted beside a path
@@ -79,7 +79,7 @@ class Scale:
     back_distance: float  # [m] to back at least, from where it tilted
     safe_pose_reached: float  # [m]
     safe_pose_spacing: float  # [m]
-    blocked_ahead: float  # [m] of a blocked place, from where there was no way on
+    blocked_ahead: float  # [m] of a blocked place, from where the robot got stuck
     blocked_radius: float  # [m]
     same_stop: float  # [m] within which stops are at the same place
 

@@ -31,8 +31,8 @@ class Event(Enum):
     """What can happen to a mission."""
 
     start = "the first frame has come"
-    blocked = "no way ahead"
-    cleared = "a way is open"
+    blocked = "no free ground ahead"
+    cleared = "the ground ahead is free again"
     rock_seen = "a rock is near enough to drive to it by sight"
     rock_lost = "the rock is gone or given up"
     rock_reached = "a sample is in reach of the arm"

@@ -31,7 +31,7 @@ class Completion:
 
     @property
     def searches(self) -> bool:
-        """Whether rocks are still looked for that nobody has seen."""
+        """Whether to search for rocks that nobody has seen."""
         return not self._samples.all_collected and self._searched < self._search_limit
 
     def update(self, tick: TickContext, exploring: bool) -> None:

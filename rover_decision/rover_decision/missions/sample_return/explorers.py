@@ -24,11 +24,11 @@ from rover_navigation.selection import NearestStop, Selection, WholeTour
 from rover_navigation.types import GoalKind
 
 PATH_AHEAD = math.radians(12.0)  # a path this near to straight ahead can be driven into
-SHARP = math.radians(40.0)  # a path further aside is turned to in place, which takes no way ahead
+SHARP = math.radians(40.0)  # a path further aside is turned to in place, with no free ground ahead
 CLEARANCE_TO_GO = 1.2  # of the clearance below which it stops: not to stop again at once
-LOOK_AROUND = math.radians(60.0)  # out of sight, so that the turn goes on
+SCAN_TURN = math.radians(60.0)  # out of sight, so that the turn goes on
 SPEED_MIN = 0.3  # [m/s] of driving by sight
-ALIGN_SECONDS, LOOK_SECONDS = 0.5, 1.0  # [s] in STOP, at least
+ALIGN_SECONDS, SCAN_SECONDS = 0.5, 1.0  # [s] in STOP, at least
 
 
 class Explorer(Protocol):
@@ -47,7 +47,7 @@ class Explorer(Protocol):
         """Explore on."""
 
     def leave_stop(self, tick: TickContext, side: int) -> Action:
-        """Turn to where it goes on, or to a side (+1 left) until there is a way; it stands."""
+        """Turn to where it goes on, or to a side (+1 left) until there is free ground; it stands."""
 
     def is_clear(self, tick: TickContext) -> bool:
         """Whether it can drive on from a stop."""
@@ -63,7 +63,7 @@ class SightDriver:
         self._go_clearance = config.go_clearance
 
     def towards(self, tick: TickContext, bearing: float) -> Command:
-        """In a curve, the way is the corridor to its side."""
+        """In a curve, the corridor to its side counts as well."""
         ahead = min(tick.local.clearance(bearing), tick.local.clearance(bearing / 2))
         speed = min(self._top_speed, approach_speed(ahead - self._stop_margin))
         return self.actuation.drive(tick.speed, max(SPEED_MIN, speed), bearing)
@@ -84,15 +84,15 @@ class SightDriver:
         return command, "leaves the circle"
 
     def turn_to_open(self, tick: TickContext, side: int) -> Action:
-        """Turn to the nearest way by sight, to the side where none is seen."""
-        way = tick.local.open_bearing(self._go_clearance)
-        bearing = side * LOOK_AROUND if way is None else way
-        return self.actuation.turn_in_place(tick.speed, bearing), "turns to find a way"
+        """Turn to the nearest free corridor by sight, to the side where none is seen."""
+        free = tick.local.open_bearing(self._go_clearance)
+        bearing = side * SCAN_TURN if free is None else free
+        return self.actuation.turn_in_place(tick.speed, bearing), "turns to find free ground"
 
     def is_open(self, tick: TickContext) -> bool:
-        """Whether there is a way ahead by sight."""
-        way = tick.local.open_bearing(self._go_clearance)
-        return way is not None and abs(way) < PATH_AHEAD
+        """Whether the ground ahead is free by sight."""
+        free = tick.local.open_bearing(self._go_clearance)
+        return free is not None and abs(free) < PATH_AHEAD
 
 
 class PlanExplorer:
@@ -126,8 +126,8 @@ class PlanExplorer:
         if plan is None:
             return self._actuation.stop(), "waits for the first plan"
         if plan.goal is None or len(plan.path) == 0:
-            turn = self._actuation.turn_in_place(tick.speed, LOOK_AROUND)
-            return turn, "looks around for a goal"
+            turn = self._actuation.turn_in_place(tick.speed, SCAN_TURN)
+            return turn, "turns in search of a goal"
         what = plan.goal.kind.value
         if self.turns_in_place(tick):
             turn = self._actuation.turn_in_place(tick.speed, self.wanted_bearing(tick))
@@ -139,7 +139,7 @@ class PlanExplorer:
         if tick.plan is None:
             return self._sight.turn_to_open(tick, side)
         if len(tick.plan.path) == 0:
-            turn = self._actuation.turn_in_place(tick.speed, LOOK_AROUND)
+            turn = self._actuation.turn_in_place(tick.speed, SCAN_TURN)
             return turn, "turns to find a path"
         bearing = self.wanted_bearing(tick)
         if abs(bearing) < PATH_AHEAD and not self._has_clearance(tick.local, bearing):
@@ -151,7 +151,7 @@ class PlanExplorer:
         if plan is None:
             return self._sight.is_open(tick)
         if plan.goal is None:
-            return tick.since > LOOK_SECONDS  # it looks around while it drives
+            return tick.since > SCAN_SECONDS  # it turns in search of a goal
         wanted = self.wanted_bearing(tick)
         aligned = tick.since > ALIGN_SECONDS and abs(wanted) < PATH_AHEAD
         return aligned and self._has_clearance(tick.local, wanted)

@@ -9,7 +9,7 @@ import numpy as np
 
 from rover_common.geometry import Pose, bearing_to
 from rover_common.types import PolarArray
-from rover_decision.missions.sample_return.explorers import LOOK_AROUND, SightDriver
+from rover_decision.missions.sample_return.explorers import SCAN_TURN, SightDriver
 from rover_decision.missions.sample_return.tick import TickContext
 from rover_decision.types import Action
 from rover_navigation.path_tracking import PathTracker, path_length, remaining
@@ -118,10 +118,10 @@ class HomewardDriver:
         bearing = bearing_home(tick.frame.nav, tick.pose, home)
         turn_in_place = self._sight.actuation.turn_in_place
         if bearing is None:
-            return turn_in_place(tick.speed, LOOK_AROUND), f"{reason}: looks around"
+            return turn_in_place(tick.speed, SCAN_TURN), f"{reason}: turns in search of ground"
         if tick.local.clearance(bearing) < self._stop_clearance:
             around = tick.local.best_bearing(bearing, self._go_clearance)
-            turn = around if abs(around) > TURN_ASIDE else LOOK_AROUND
+            turn = around if abs(around) > TURN_ASIDE else SCAN_TURN
             return turn_in_place(tick.speed, turn), f"{reason}: turns"
         return self._sight.towards(tick, bearing), reason
 

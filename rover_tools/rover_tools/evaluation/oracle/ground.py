@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
-from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
+from rover_navigation.grid_graph import Offset, grid_graph
+
 SIGHT_STEP = 0.5  # [m] between the sampled points of a line of sight
-# Links of a cell (rows up, columns right) with the cells that must be navigable between; the other
-# eight directions are their reverses.
-LINKS = {
+CELL = 1.0  # [m]
+# Half of the sixteen directions (rows, columns) with the cells between that must be navigable.
+LINKS: dict[Offset, tuple[Offset, ...]] = {
     (0, 1): (),
     (1, 0): (),
     (1, 1): ((0, 1), (1, 0)),
@@ -36,7 +37,7 @@ class OracleGround:
         rows, cols = np.nonzero(self.cells)
         centers = np.stack([cols, rows], axis=1) + 0.5
         self.centers = centers.astype(np.float64)  # (n, 2) [m]
-        self._links = _links(self.cells)
+        self._links = grid_graph(self.cells, np.ones(self.cells.shape), CELL, LINKS)
 
     def __len__(self) -> int:
         return len(self.centers)
@@ -69,26 +70,3 @@ class OracleGround:
         sees = np.eye(len(self), dtype=bool)
         sees[pairs[:, 0], pairs[:, 1]] = sees[pairs[:, 1], pairs[:, 0]] = True
         return sees
-
-
-def _links(cells: NDArray[np.bool_]) -> csr_array:
-    """Distances [m] between neighbouring cells; no link crosses a cell that is not navigable."""
-    count = int(np.count_nonzero(cells))
-    numbers = np.full(cells.shape, -1)
-    numbers[cells] = np.arange(count)
-    numbers = np.pad(numbers, 2, constant_values=-1)
-    inner = (slice(2, -2), slice(2, -2))
-
-    def shifted(up: int, right: int) -> NDArray[np.int_]:
-        return np.roll(numbers, (-up, -right), (0, 1))[inner]
-
-    starts, ends, metres = [], [], []
-    for (up, right), between in LINKS.items():
-        open_ = (numbers[inner] >= 0) & (shifted(up, right) >= 0)
-        for cell in between:
-            open_ &= shifted(*cell) >= 0
-        starts.append(numbers[inner][open_])
-        ends.append(shifted(up, right)[open_])
-        metres.append(np.full(len(starts[-1]), np.hypot(up, right)))
-    links = (np.concatenate(starts), np.concatenate(ends))
-    return csr_array((np.concatenate(metres), links), shape=(count, count))

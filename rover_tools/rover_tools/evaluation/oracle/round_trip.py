@@ -9,6 +9,7 @@ import numpy as np
 from networkx.algorithms.approximation import christofides, threshold_accepting_tsp
 from numpy.typing import NDArray
 
+from rover_navigation.grid_graph import path_nodes
 from rover_tools.evaluation.oracle.ground import OracleGround
 
 NEARBY = 6.0  # [m] within which a better viewpoint is sought
@@ -115,10 +116,8 @@ class RoundTrip:
         """Cells of the shortest path, both ends included."""
         source, target = (b, a) if a not in self._paths and b in self._paths else (a, b)
         before = self._paths_from(source)[1]
-        cells = [target]
-        while cells[-1] != source:
-            cells.append(int(before[cells[-1]]))
-        return np.array(cells[:: -1 if source == a else 1], np.intp)
+        cells = path_nodes(before, target)
+        return np.array(cells[:: 1 if source == a else -1], np.intp)
 
     def _paths_from(self, stop: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         if stop not in self._paths:

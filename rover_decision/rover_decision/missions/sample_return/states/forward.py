@@ -7,7 +7,7 @@ from rover_decision.missions.sample_return.states.exploring import Exploring
 from rover_decision.missions.sample_return.tick import TickContext
 from rover_decision.types import Action
 
-PLANS_UNPLACED = 20  # in a row: turning in place brings neither ground to plan on nor a way out
+PLANS_UNPLACED = 20  # in a row: turning in place brings neither ground to plan on nor an exit
 
 
 class Forward(Exploring):

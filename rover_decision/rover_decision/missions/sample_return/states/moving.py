@@ -14,7 +14,7 @@ SLOW = 1.0  # [m/s] from which it stops within 0.2 m, so that the sample stays i
 
 
 class Moving(StateBehavior):
-    """Trouble first, then a sample in reach, then what the state itself looks for."""
+    """Trouble first, then a sample in reach, then what concerns the state itself."""
 
     def __init__(
         self, limits: Limits, watched: Collection[Trouble], tilt_factor: float = 1.0

@@ -17,14 +17,14 @@ class ReturnHome(Moving):
     def __init__(
         self,
         limits: Limits,
-        driver: HomewardDriver,
+        homeward: HomewardDriver,
         parts: Parts,
         home_radius: float,
     ) -> None:
         """home_radius: [m] that counts as there."""
         super().__init__(limits, MOTION)
         self._paths = parts.home_paths
-        self._driver = driver
+        self._homeward = homeward
         self._parts = parts
         self._home_radius = home_radius
 
@@ -40,4 +40,4 @@ class ReturnHome(Moving):
         return Event.arrived if distance < self._home_radius else None
 
     def act(self, tick: TickContext) -> Action:
-        return self._driver.drive(tick, self._paths.method, self._parts.home)
+        return self._homeward.drive(tick, self._paths.method, self._parts.home)

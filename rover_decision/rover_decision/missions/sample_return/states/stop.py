@@ -1,4 +1,4 @@
-"""STOP: there is no way ahead. Brakes, then turns in place to where it goes on."""
+"""STOP: no free ground ahead. Brakes, then turns in place to where it goes on."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from rover_decision.missions.sample_return.states.exploring import Exploring
 from rover_decision.missions.sample_return.tick import TickContext
 from rover_decision.types import Action
 
-STOP_SECONDS = 8.0  # [s] of looking for a way, after which the rover counts as stuck
+STOP_SECONDS = 8.0  # [s] of searching for free ground, after which the rover counts as stuck
 ROLLING = 0.2  # [m/s] forward: brakes first
 
 
@@ -28,5 +28,5 @@ class Stop(Exploring):
 
     def act(self, tick: TickContext) -> Action:
         if tick.speed > ROLLING:
-            return self._parts.actuation.stop(), "no way ahead: stops"
+            return self._parts.actuation.stop(), "no free ground ahead: stops"
         return self._explorer.leave_stop(tick, self._side)
