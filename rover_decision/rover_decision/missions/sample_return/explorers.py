@@ -47,7 +47,7 @@ class Explorer(Protocol):
         """Explore on."""
 
     def leave_stop(self, tick: TickContext, side: int) -> Action:
-        """Turn to where it goes on, or to a side (+1 left) until there is free ground; it stands."""
+        """Turn to where it goes on, or to a side (+1 left) until ground is free; it stands."""
 
     def is_clear(self, tick: TickContext) -> bool:
         """Whether it can drive on from a stop."""
