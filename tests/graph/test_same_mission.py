@@ -49,10 +49,10 @@ def fly_in_process(world: World) -> tuple[list[Answer], list[Pose]]:
     loop = Loop(simulation)
     answers: list[Answer] = []
     poses: list[Pose] = []
-    first = [loop.exchange(), loop.exchange()]  # as the simulator sends them when it connects
+    first = [loop.decide(), loop.decide()]  # as the simulator sends them when it connects
     try:
         for frame in range(FRAMES):
-            decisions = first if frame == 0 else [loop.exchange()]
+            decisions = first if frame == 0 else [loop.decide()]
             for decision in decisions:
                 answers.append(answer_of(decision.command))
                 simulation.handle(*answers[-1])

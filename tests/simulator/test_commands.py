@@ -1,4 +1,4 @@
-"""What the server may send, good and bad: what is applied, and whether a telemetry comes back."""
+"""Commands, valid and invalid: what is applied, and whether a telemetry answers them."""
 
 from __future__ import annotations
 
@@ -8,39 +8,15 @@ import math
 import cv2
 import numpy as np
 import pytest
+from simulator_controls import BEFORE, FRAME, GOOD, HELD, held, simulation_of
 
-from rover_common.geometry import Pose
 from rover_simulator.simulation import Simulation
-from rover_simulator.world.world import World
-
-HALL = np.zeros((200, 200), bool)
-HALL[80:121, 80:121] = True
-FRAME = 0.04  # [s]
-BEFORE = {"steering_angle": "5", "throttle": "0.5", "brake": "0.25"}
-GOOD = {"steering_angle": "-3", "throttle": "0.1", "brake": "0.2"}
-# What the telemetry holds afterwards, by how many of the fields of GOOD were applied.
-HELD = (
-    ("5.0000", "0.5000", "0.2500"),
-    ("-3.0000", "0.5000", "0.2500"),
-    ("-3.0000", "0.1000", "0.2500"),
-    ("-3.0000", "0.1000", "0.2000"),
-)
-
-
-def simulation_of(*samples: tuple[float, float]) -> Simulation:
-    points = np.array(samples, float).reshape(-1, 2)
-    return Simulation(World("hall", HALL, points, Pose(100, 100, 0)), 0, 2)
 
 
 @pytest.fixture(scope="module")
 def shared() -> Simulation:
-    """One for tests that say at their start what it holds, because making one takes seconds."""
+    """One for tests that set its controls first, because making one takes seconds."""
     return simulation_of()
-
-
-def held(simulation: Simulation) -> tuple[str, str, str]:
-    telemetry = simulation.telemetry()
-    return telemetry["steering_angle"], telemetry["throttle"], telemetry["brake"]
 
 
 def without(key: str) -> dict[str, str]:
@@ -177,83 +153,6 @@ def test_a_pickup_frame_by_frame():
     assert all(";150.00;100.90 " in entry for entry in listed[:248])
     assert listed[247].startswith("100.06;")  # on the flatbed, 0.061 m ahead of the origin
     assert listed[248] == "150.00;100.90 150.00;100.20"
-
-
-@pytest.mark.parametrize(
-    ("event", "seconds"),
-    [
-        ({"angle": "90"}, 2.0),
-        ({"angle": "90", "time": "0"}, 2.0),
-        ({"angle": "-45", "time": "0.4"}, 0.4),
-        ({"angle": "-9"}, 0.2),
-    ],
-    ids=str,
-)
-def test_a_fixed_turn_goes_clockwise_in_its_time(event, seconds):
-    simulation = simulation_of()
-    assert simulation.handle("fixed_turn", event)
-    angle = -math.radians(float(event["angle"]))
-    frames = round(seconds / FRAME)
-    for index in range(frames + 3):
-        assert simulation.handle("data", GOOD if index < frames else BEFORE | {"throttle": "0"})
-        assert simulation.handle("fixed_turn", {"angle": "10"})
-        if index < frames:
-            assert held(simulation) == ("0.0000", "0.0000", "0.0000")
-            assert simulation.telemetry()["speed"] == "0.0000"
-        simulation.advance()
-        share = min(1.0, (index + 1) / frames)
-        assert simulation.pose.yaw == pytest.approx(share * angle, abs=1e-9)
-    assert (simulation.pose.x, simulation.pose.y) == (100, 100)
-    assert held(simulation) == ("5.0000", "0.0000", "0.2500")  # commands count again
-
-
-def test_a_fixed_turn_ignores_a_pickup():
-    simulation = simulation_of()
-    simulation.handle("fixed_turn", {"angle": "90"})
-    simulation.advance()
-    assert simulation.handle("pickup", {})
-    assert simulation.telemetry()["picking_up"] == "0"
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        {"steering_angle": "5", "throttle": "0"},
-        {"steering_angle": "0", "throttle": "0.1"},
-        {"steering_angle": "0", "throttle": "0", "brake": "0.1"},
-    ],
-    ids=str,
-)
-def test_a_rover_that_is_told_something_else_makes_no_fixed_turn(shared, command):
-    assert shared.handle("data", command)
-    assert shared.handle("fixed_turn", {"angle": "90"})  # ignored, but answered
-    assert shared.handle("data", GOOD)
-    assert held(shared) == HELD[3]
-
-
-def test_a_rolling_rover_makes_no_fixed_turn():
-    simulation = simulation_of()
-    simulation.handle("data", {"steering_angle": "0", "throttle": "1"})
-    for _ in range(10):
-        simulation.advance()
-    simulation.handle("data", {"steering_angle": "0", "throttle": "0"})
-    assert simulation.handle("fixed_turn", {"angle": "90"})
-    simulation.advance()
-    assert simulation.pose.yaw == 0.0
-    assert float(simulation.telemetry()["speed"]) > 0
-
-
-@pytest.mark.parametrize(
-    "bad", [{}, {"angle": 90}, {"angle": "east"}, {"angle": "90", "time": 2}], ids=str
-)
-def test_a_fixed_turn_that_cannot_be_parsed_loses_its_answer(shared, bad):
-    shared.handle("data", {"steering_angle": "0", "throttle": "0"})
-    yaw = shared.pose.yaw
-    assert not shared.handle("fixed_turn", bad)
-    shared.advance()
-    assert shared.handle("data", GOOD)
-    assert held(shared) == HELD[3]
-    assert shared.pose.yaw == pytest.approx(yaw, abs=0.2)
 
 
 def yellow_pixels(simulation: Simulation) -> int:

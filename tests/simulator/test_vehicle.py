@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rover_common.geometry import Pose
-from rover_common.vehicle import MAX_STEERING
+from rover_common.vehicle import ROVER
 from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
 
 FLAT = Slope()
@@ -89,14 +89,14 @@ def test_stronger_brake_stops_as_derived(brake, speed, seconds, metres):
     ],
 )
 def test_yaw_rate_at_full_steering(throttle, speed, rate_deg):
-    vehicle = driven(Controls(steering=MAX_STEERING, throttle=throttle), STEP, speed)
+    vehicle = driven(Controls(steering=ROVER.max_steering, throttle=throttle), STEP, speed)
     assert math.degrees(vehicle.pose.yaw) / STEP == pytest.approx(rate_deg, rel=0.06)
 
 
 @pytest.mark.parametrize(("speed", "drag"), [(1.75, 0.03), (2.75, 0.06), (3.75, 0.13)])
 def test_drag_in_a_turn(speed, drag):
     """[m/s^2] at full steering, more than straight ahead."""
-    turning = driven(Controls(steering=MAX_STEERING), STEP, speed).speed
+    turning = driven(Controls(steering=ROVER.max_steering), STEP, speed).speed
     straight = driven(Controls(), STEP, speed).speed
     assert (straight - turning) / STEP == pytest.approx(drag, abs=0.04)
 
@@ -104,7 +104,7 @@ def test_drag_in_a_turn(speed, drag):
 @pytest.mark.parametrize(("speed", "angle"), [(0.35, 6.4), (1.75, 4.0), (3.7, 0.0), (5.0, -1.4)])
 def test_course_beside_the_yaw(speed, angle):
     """[deg] at full steering: inside of the yaw at low speed, outside of it at high."""
-    vehicle = driven(Controls(steering=MAX_STEERING, throttle=speed == 5.0), STEP, speed)
+    vehicle = driven(Controls(steering=ROVER.max_steering, throttle=speed == 5.0), STEP, speed)
     course = math.atan2(vehicle.pose.y - 100, vehicle.pose.x - 100)
     assert math.degrees(course - vehicle.pose.yaw) == pytest.approx(angle, abs=1.0)
 
@@ -133,5 +133,5 @@ def test_in_place_it_turns_three_times_the_steering(steering_deg):
 
 @pytest.mark.parametrize(("speed", "turns"), [(0.30, True), (0.33, False)])
 def test_in_place_only_below_a_third_of_a_metre_per_second(speed, turns):
-    turned = driven(Controls(steering=MAX_STEERING), 0.2, speed)
+    turned = driven(Controls(steering=ROVER.max_steering), 0.2, speed)
     assert (math.degrees(turned.pose.yaw) > 8.0) == turns

@@ -10,7 +10,7 @@ from rover_common.geometry import Pose
 
 Samples = Sequence[tuple[float, float]]
 
-SWAPPED_MARKS = str.maketrans(".,", ",.")  # decimal mark and group mark of the other culture
+SWAPPED_MARKS = str.maketrans(".,", ",.")  # decimal mark and group mark of other locales
 
 
 def format_telemetry(
@@ -31,8 +31,8 @@ def format_telemetry(
 ) -> dict[str, str]:
     """The object of one telemetry event.
 
-    Takes SI and REP-103: speeds in [m/s], angles in [rad], samples as (x, y) [m], and a JPEG file.
-    `decimal` is the mark of the machine's culture; `sim_time` [s] is this project's one addition.
+    Takes SI and REP-103: [m/s], [rad], samples as (x, y) [m], and a JPEG file. `decimal` is the
+    mark of the machine's locale; `sim_time` [s] is this project's only addition.
     """
 
     def number(value: float, digits: int = 4) -> str:
@@ -44,7 +44,7 @@ def format_telemetry(
         "throttle": number(throttle),
         "brake": number(brake),
         "speed": number(speed),
-        "position": separator.join((number(pose.x), number(pose.y))),
+        "position": number(pose.x) + separator + number(pose.y),
         "pitch": number(_circle_deg(pose.pitch)),
         "yaw": number(_circle_deg(pose.yaw)),
         "roll": number(_circle_deg(-pose.roll)),  # the simulator's is positive right side up

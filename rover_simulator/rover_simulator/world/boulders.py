@@ -15,6 +15,8 @@ from rover_common.vehicle import ROVER
 # In the original, holes of 1 to 5 cells are rocks, larger ones are walls with a floor around them.
 LARGEST_HOLE = 6  # [cells of 1 m]
 RADIUS = (0.35, 0.55)  # [m]
+# [m] between the middles; beyond, no boulder touches the wheelbase, whose corners are 0.7 m away
+OUT_OF_REACH = 1.5
 HEIGHT = (0.3, 0.6)  # [m] tops of the rocks near the original's start: 0.06 to 0.59
 
 
@@ -45,11 +47,13 @@ def boulders_of(navigable: NDArray[np.bool_], seed: int) -> list[Boulder]:
 
 
 def overlap(pose: Pose, boulders: list[Boulder]) -> float:
-    """How deep [m] the rover's wheelbase stands in the boulder that it touches most; 0 for none."""
+    """How deep [m] the rover's wheelbase reaches into a boulder, the deepest; 0 for none."""
     c, s = math.cos(pose.yaw), math.sin(pose.yaw)
     deepest = 0.0
     for boulder in boulders:
         dx, dy = boulder.x - pose.x, boulder.y - pose.y
+        if abs(dx) > OUT_OF_REACH or abs(dy) > OUT_OF_REACH:
+            continue
         ahead, aside = c * dx + s * dy, abs(c * dy - s * dx)
         beyond = math.hypot(
             max(0.0, ahead - ROVER.body_front, -ROVER.body_rear - ahead),

@@ -1,7 +1,7 @@
 """The closed loop in one process, without ROS: simulator, perception and decision in turn.
 
-The same cores as in the graph, the same texts on the wire, the same rounding between the nodes; a
-test holds it against the graph frame for frame.
+It uses the same cores as the graph, the same values on the wire and the same rounding between the
+nodes; a test compares it with the graph frame by frame.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ POSE_ROUNDING = 1
 class LoopResult:
     """How a mission ended."""
 
-    done: bool  # by the mission's own word
+    done: bool  # as the mission itself reports
     decision: Decision
     world_map: GridMap
     rocks: tuple[RockTrack, ...]
@@ -78,9 +78,9 @@ class Loop:
     def run(
         self, time_limit: float, watch: Callable[[Decision], object] | None = None
     ) -> LoopResult:
-        """Until the mission is over or the simulated time [s] is up."""
-        # The simulator sends two telemetries when it connects, and moves on when both are answered.
-        answers = [self.exchange(), self.exchange()]
+        """Run until the mission is over or the simulated time reaches `time_limit` [s]."""
+        # The simulator sends two telemetries when it connects, and advances when both are answered.
+        answers = [self.decide(), self.decide()]
         track = [self._position()]
         while True:
             decision = answers[-1]
@@ -91,15 +91,15 @@ class Loop:
             self.simulation.advance()
             if self.simulation.time >= len(track) + 1.0:
                 track.append(self._position())
-            answers = [self.exchange()]
+            answers = [self.decide()]
             if watch is not None:
                 watch(answers[-1])
         track.append(self._position())
         done = decision.state is State.DONE
         return LoopResult(done, decision, self.perception.world_map(), self._rocks, np.array(track))
 
-    def exchange(self) -> Decision:
-        """One telemetry, and what was decided on it."""
+    def decide(self) -> Decision:
+        """Process one telemetry of the simulator's present frame."""
         telemetry = decode_telemetry(self.simulation.telemetry())
         assert telemetry.sim_time is not None
         self._stamp = max(self._stamp + 1, round(telemetry.sim_time * 1e9))
@@ -122,7 +122,7 @@ class Loop:
         return decision
 
     def answer(self, decision: Decision) -> None:
-        """Hand the simulator what was decided."""
+        """Send the decision's command to the simulator."""
         if decision.command.pickup:
             self.simulation.handle("pickup", {})
         else:
