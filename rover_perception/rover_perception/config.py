@@ -5,10 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rover_common.config import parameter
+from rover_common.errors import RoverError
+from rover_common.grid import WORLD
+
+
+class ResolutionError(RoverError, ValueError):
+    """Resolutions of which one does not divide the other."""
 
 
 @dataclass(frozen=True)
 class PerceptionConfig:
+    """The node's parameters; raises ResolutionError for grids that do not fit into each other."""
+
     map_resolution: float = parameter(
         1.0, "[m] cell of the published world map", minimum=0.25, maximum=5.0
     )
@@ -36,3 +44,14 @@ class PerceptionConfig:
     vision_period: float = parameter(
         0.2, "[s] of frame time between two vision images", minimum=0.0, maximum=60.0
     )
+
+    def __post_init__(self) -> None:
+        _check_divides(self.evidence_resolution, self.map_resolution, "map_resolution")
+        _check_divides(self.evidence_resolution, WORLD.size, "the world's size")
+
+
+def _check_divides(resolution: float, length: float, name: str) -> None:
+    """Both in [m]."""
+    count = length / resolution
+    if abs(count - round(count)) > 1e-6 * count:
+        raise ResolutionError(f"evidence_resolution {resolution} does not divide {name}, {length}")

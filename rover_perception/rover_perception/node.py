@@ -30,6 +30,11 @@ from rover_perception.config import PerceptionConfig
 from rover_perception.frame_validation import FrameError
 from rover_perception.perception import Perception
 
+# Counters in /diagnostics, beside those of FrameError's subclasses.
+FRAMES = "frames"
+FRAMES_INCOMPLETE = "frames_incomplete"
+IMAGE_ENCODING = "frame_image_encoding"
+
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
 PAUSE = 0.2  # [s] of wall time without a frame after which the map is brought up to date
 
@@ -86,9 +91,9 @@ class PerceptionNode(Node):
     def _on_status(self, message: RoverStatus) -> None:
         self._on_part(topics.STATUS, message)
 
-    def _on_part(self, slot: str, message: Any) -> None:
-        parts = self._join.add(slot, conversions.stamp_of(message.header.stamp), message)
-        self._diagnostics.counts["frames_incomplete"] = self._join.dropped
+    def _on_part(self, topic: str, message: Any) -> None:
+        parts = self._join.add(topic, conversions.stamp_of(message.header.stamp), message)
+        self._diagnostics.counts[FRAMES_INCOMPLETE] = self._join.dropped
         if parts is None:
             return
         try:
@@ -99,9 +104,9 @@ class PerceptionNode(Node):
         except FrameError as error:
             self._drop(error.counter, error)
         except MessageError as error:
-            self._drop("frame_image_encoding", error)
+            self._drop(IMAGE_ENCODING, error)
         else:
-            self._diagnostics.counts["frames"] += 1
+            self._diagnostics.counts[FRAMES] += 1
             self._publish(result)
 
     def _drop(self, counter: str, error: Exception) -> None:
@@ -146,7 +151,7 @@ class PerceptionNode(Node):
 
     def _on_pause_check(self) -> None:
         """When no frames arrive, publish the maps that include the last one."""
-        frame_count = self._diagnostics.counts["frames"]
+        frame_count = self._diagnostics.counts[FRAMES]
         paused = frame_count == self._frames_at_last_check
         self._frames_at_last_check = frame_count
         if not paused or self._stamp is None:
@@ -157,8 +162,8 @@ class PerceptionNode(Node):
 
 
 def _due(last: int | None, now: int, period: float) -> bool:
-    """Whether a period [s] of frame time has passed between two stamps [ns]."""
-    return last is None or now - last >= period * 1e9
+    """Whether two stamps [ns] are a period [s] of frame time apart, in either direction."""
+    return last is None or abs(now - last) >= period * 1e9
 
 
 def main() -> None:

@@ -116,9 +116,9 @@ class Perception:
         )
 
     def _newest_map(self, stamp: int) -> int:
-        """Maps are due at the first frame, and whenever `map_period` has passed since the last."""
+        """Maps are due at the first frame of a run, and whenever `map_period` has passed."""
         last = self._map_stamp
-        if last is None or stamp - last >= self._config.map_period * 1e9:
+        if last is None or abs(stamp - last) >= self._config.map_period * 1e9:
             self._map_stamp = last = stamp
         return last
 

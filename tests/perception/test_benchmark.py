@@ -56,8 +56,7 @@ def test_the_timer_measures_each_stage_of_the_pipeline_once_per_frame():
 def test_the_benchmark_reports_times_and_scores_of_both(tmp_path, monkeypatch, capsys):
     whole_drive = recorder.record_drive
     monkeypatch.setattr(recorder, "record_drive", partial(whole_drive, frames=25))
-    arguments = ["--generated", "--seeds", "1", "--json", "--out", str(tmp_path)]
-    assert bench_perception.main(arguments) == 0
+    bench_perception.bench(generated=True, seeds=[1], out=tmp_path, as_json=True)
     result = json.loads(capsys.readouterr().out.splitlines()[0])
     for stage in (*STAGES, "core", "world_map", "navigation_map", "baseline"):
         assert 0 < result[f"{stage}_ms_p50"] <= result[f"{stage}_ms_p99"]

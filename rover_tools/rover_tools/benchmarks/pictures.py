@@ -8,7 +8,7 @@ other recordings than the one that is scored.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
+from rover_common.grid import WORLD
 from rover_simulator.recordings.recording import RecordedFrame, read_recording
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.world.terrain import COUNT, Terrain
@@ -26,7 +27,7 @@ from rover_tools.benchmarks.skyline_relief import carve, read_skyline
 from rover_tools.evaluation.results import Result
 
 RUNS = ("udacity/test_dataset", "recordings/long", "recordings/medium", "recordings/arm")
-HELD_OUT = RUNS[0]  # drives where others were, so that they saw its skylines from elsewhere
+HELD_OUT = RUNS[0]  # the others pass the same places and show its skylines from elsewhere
 COLLISION_TILT = math.radians(3.0)  # more than driving alone can tilt the body
 EVERY = 10  # frames between two that are compared, or that a relief is measured on
 PICTURED = ((RUNS[0], 2), (RUNS[2], 16), (RUNS[3], 60))  # recordings, and which compared frame
@@ -40,7 +41,7 @@ SKY_WARMTH = (-2, 30)  # [levels] red above blue
 SKY_LOWEST = math.radians(1.0)  # elevation: walls stand all around
 SKY_VARIANCE = 16.0  # [levels^2] among 3 x 3 pixels
 SKY_AREA = 30  # [px] the least that counts
-SKY_EDGE = 4  # [px] at its rim, where JPEG smears the skyline into it
+SKY_EDGE = 4  # [px] at its border, where JPEG blurs the skyline into it
 
 Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
@@ -57,7 +58,7 @@ class Shot:
 
 
 def level_frames(frames: tuple[RecordedFrame, ...], every: int) -> Iterator[RecordedFrame]:
-    """Every so many frames, without those that a collision tilts."""
+    """One of every so many frames, without those that a collision tilts."""
     for frame in frames[::every]:
         if max(abs(frame.pose.pitch), abs(frame.pose.roll)) <= COLLISION_TILT:
             yield frame
@@ -74,9 +75,9 @@ def picture_agreement(data: Path, navigable: Mask, picture: Path | None) -> Resu
     `sky_iou` is of one recording, with the relief that the skylines of the other three give; none
     of its own frames is used. `sky_iou_map_only` is of the same frames without a relief. `skylines`
     has both for each recording left out in its turn, `sky_iou_all` is over all of them: two of
-    these drive far into arms that no other recording saw, where a relief cannot be known.
+    these drive far into arms that no other recording shows, where a relief cannot be known.
     """
-    world = World("original", navigable, np.empty((0, 2)), Pose(99.67, 85.589, 0.0))
+    world = World("original", navigable, np.empty((0, 2)), Pose(WORLD.start_x, WORLD.start_y, 0.0))
     median = Terrain.of(navigable, relief=np.ones((COUNT, COUNT)))
     flat = _renderer(world, median)
     shots = {
@@ -84,32 +85,51 @@ def picture_agreement(data: Path, navigable: Mask, picture: Path | None) -> Resu
         for run in RUNS
     }
     plain = {run: [flat(shot.pose) for shot in shots[run]] for run in RUNS}
-    result = _map_agreement(
+    carved = {run: _renderer(world, _carved(median, navigable, shots, run)) for run in RUNS}
+    if picture is not None:
+        chosen = [(shots[run][index], carved[run]) for run, index in PICTURED]
+        draw_pairs(picture, [(shot.image, render(shot.pose)) for shot, render in chosen])
+    colors = _map_agreement(
         [shot for run in RUNS for shot in shots[run]],
         [image for run in RUNS for image in plain[run]],
     )
-    rows, pairs, totals = [], [], np.zeros(2)
+    return colors | _sky_agreement(shots, plain, carved)
+
+
+def _carved(
+    median: Terrain, navigable: Mask, shots: Mapping[str, list[Shot]], left_out: str
+) -> Terrain:
+    """The terrain with the relief that the skylines of all other recordings give."""
+    others = [shot for run in RUNS if run != left_out for shot in shots[run]]
+    relief = carve(median, read_skyline((shot.pose, shot.sky) for shot in others))
+    return Terrain.of(navigable, relief=relief)
+
+
+def _sky_agreement(
+    shots: Mapping[str, list[Shot]],
+    plain: Mapping[str, list[Image]],
+    carved: Mapping[str, Render],
+) -> Result:
+    """Sky of recorded pictures and of images rendered without a relief and with one, by run."""
+    rows, totals = [], np.zeros(2)
     for run in RUNS:
-        others = [shot for other in RUNS if other != run for shot in shots[other]]
-        relief = carve(median, read_skyline((shot.pose, shot.sky) for shot in others))
-        carved = _renderer(world, Terrain.of(navigable, relief=relief))
-        counts = _sky_counts(shots[run], [carved(shot.pose) for shot in shots[run]])
-        without = _sky_counts(shots[run], plain[run])
+        counts = _sky_counts(shots[run], [carved[run](shot.pose) for shot in shots[run]])
         totals += counts
         rows.append(
             {
                 "recording": run,
                 "frames": len(shots[run]),
                 "sky_iou": _ratio(counts),
-                "sky_iou_map_only": _ratio(without),
+                "sky_iou_map_only": _ratio(_sky_counts(shots[run], plain[run])),
             }
         )
-        pairs += [(shots[run][at], carved) for name, at in PICTURED if name == run]
     held_out = rows[RUNS.index(HELD_OUT)]
-    result |= {key: held_out[key] for key in ("sky_iou", "sky_iou_map_only")}
-    if picture is not None:
-        draw_pairs(picture, [(shot.image, render(shot.pose)) for shot, render in pairs])
-    return result | {"sky_iou_all": _ratio(totals), "skylines": rows}
+    return {
+        "sky_iou": held_out["sky_iou"],
+        "sky_iou_map_only": held_out["sky_iou_map_only"],
+        "sky_iou_all": _ratio(totals),
+        "skylines": rows,
+    }
 
 
 def ground_mask(image: Image) -> Mask:
