@@ -61,19 +61,22 @@ def find_frontiers(
     labels, count = ndimage.label(border, structure=SQUARE)
     if count == 0:
         return []
+    resolution = costmap.geometry.resolution
     rows, cols = np.nonzero(border)
-    order = np.argsort(labels[rows, cols], kind="stable")
-    ends = np.cumsum(np.bincount(labels[rows, cols], minlength=count + 1)[1:])
-    rows, cols = rows[order], cols[order]
+    label = labels[rows, cols]
+    sizes = np.bincount(label, minlength=count + 1)
+    large = sizes[label] >= scale.frontier_length / resolution
+    rows, cols, label = rows[large], cols[large], label[large]
+    order = np.argsort(label, kind="stable")
+    rows, cols, label = rows[order], cols[order], label[order]
+    ends = np.flatnonzero(np.diff(label)) + 1
     nothing = (costmap.unknown & ~costmap.edge).astype(np.uint8)
     is_open = cv2.dilate(nothing, SQUARE)[rows, cols] > 0
-    resolution = costmap.geometry.resolution
     area = cv2.dilate(_areas(unknown, resolution), SQUARE)[rows, cols]
     columns = (*costmap.geometry.center_of(rows, cols), is_open, area)
-    parts = zip(*(np.split(column, ends[:-1]) for column in columns), strict=True)
-    frontiers = [Frontier(resolution, *part) for part in parts]
-    large = [f for f in frontiers if f.length >= scale.frontier_length / resolution]
-    return sorted(large, key=lambda frontier: -frontier.length)
+    parts = zip(*(np.split(column, ends) for column in columns), strict=True)
+    frontiers = [Frontier(resolution, *part) for part in parts if len(part[0])]
+    return sorted(frontiers, key=lambda frontier: -frontier.length)
 
 
 def _areas(unknown: NDArray[np.uint8], resolution: float) -> NDArray[np.float32]:

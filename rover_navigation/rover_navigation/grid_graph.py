@@ -49,7 +49,8 @@ def grid_graph(
         starts.append(numbers[here][open_])
         ends.append(numbers[there][open_])
         costs.append(0.5 * length * (pace[here] + pace[there])[open_])
-    start, end, cost = (np.concatenate(parts) for parts in (starts, ends, costs))
+    start, end = np.concatenate(starts), np.concatenate(ends)
+    cost = np.concatenate(costs).astype(np.float64)  # as SciPy's shortest paths want it
     count = int(np.count_nonzero(passable))
     both = (np.concatenate([start, end]), np.concatenate([end, start]))
     return csr_array((np.concatenate([cost, cost]), both), shape=(count, count))

@@ -108,7 +108,7 @@ class Planner:
             )
             for target in request.targets
         ]
-        found += [self._stop_at(frontier, request, site) for frontier in frontiers]
+        found += self._frontier_stops(frontiers, request, site)
         found = [stop for stop in found if stop.node >= 0]
         large = [stop for stop in found if math.isinf(stop.worth)]
         large = sorted(large, key=lambda stop: float(site.seconds[stop.node]))
@@ -117,18 +117,29 @@ class Planner:
         small = small[:MOST_SMALL]
         return large[: MOST_STOPS - len(small)] + small
 
-    def _stop_at(self, frontier: Frontier, request: PlanRequest, site: _Site) -> Stop:
-        """Where a frontier is observed from soonest, and what that is worth."""
+    def _frontier_stops(
+        self, frontiers: list[Frontier], request: PlanRequest, site: _Site
+    ) -> list[Stop]:
+        """Where each frontier is observed from soonest, and what that is worth."""
+        if not frontiers:
+            return []
         scale = self._scale
-        nodes = site.reachable.nodes_near(frontier.x, frontier.y, scale.frontier_reach)
+        x, y = (np.concatenate([getattr(f, axis) for f in frontiers]) for axis in "xy")
+        nodes = site.reachable.nodes_near(x, y, scale.frontier_reach)
         cost = np.where(nodes >= 0, site.seconds[nodes], np.inf)
-        nearest = int(np.argmin(cost))
-        goal = Goal(GoalKind.FRONTIER, float(frontier.x[nearest]), float(frontier.y[nearest]))
-        # A frontier onto unbounded unknown space is worth any detour.
-        worth = scale.seconds_per_area * frontier.hidden_area(scale) - scale.stop_seconds
-        if in_discs(frontier.x, frontier.y, request.retryable).any():
-            worth = min(worth, RETRY_SECONDS)
-        return Stop(goal, int(nodes[nearest]), worth)
+        observed = in_discs(x, y, request.retryable)
+        stops, first = [], 0
+        for frontier in frontiers:
+            own = slice(first, first + frontier.length)
+            nearest = own.start + int(np.argmin(cost[own]))
+            goal = Goal(GoalKind.FRONTIER, float(x[nearest]), float(y[nearest]))
+            # A frontier onto unbounded unknown space is worth any detour.
+            worth = scale.seconds_per_area * frontier.hidden_area(scale) - scale.stop_seconds
+            if observed[own].any():
+                worth = min(worth, RETRY_SECONDS)
+            stops.append(Stop(goal, int(nodes[nearest]), worth))
+            first = own.stop
+        return stops
 
     def _search(self, request: PlanRequest, site: _Site) -> Stop | None:
         """The nearest cell that was not observed from near, or else from nearer still."""

@@ -63,6 +63,10 @@ class Roadmap:
         )
         return ShortestPaths(seconds, predecessors)
 
+    def seconds_from(self, sources: list[int]) -> NDArray[np.float64]:
+        """Travel times (sources, nodes) alone."""
+        return np.asarray(dijkstra(self._graph, indices=sources, directed=True))
+
     def path(self, paths: ShortestPaths, source: int, target: int) -> NDArray[np.float64]:
         """Points (n, 2) [m] from source number `source` of the paths to a node, cell by cell."""
         nodes = path_nodes(paths.predecessors[source], target)

@@ -84,7 +84,7 @@ class WholeTour:
             return None
         nodes = [stop.node for stop in stops]
         first = _seconds_to(request.pose, roadmap, paths, stops, self._scale)
-        onward = roadmap.shortest_paths(nodes).seconds
+        onward = roadmap.seconds_from(nodes)
         last = onward[:, home] if home >= 0 else np.zeros(len(stops))
         worth = np.array([stop.worth for stop in stops])
         cost = tour_costs(first, onward[:, nodes], last, worth)
