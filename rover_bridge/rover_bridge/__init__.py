@@ -2,5 +2,5 @@
 
 import warnings
 
-# eventlet tells at every start that it gets bug fixes only. That is known, and enough here.
+# At every start eventlet warns that it receives bug fixes only.
 warnings.filterwarnings("ignore", message=r"\s*Eventlet is deprecated")

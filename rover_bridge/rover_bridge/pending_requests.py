@@ -133,7 +133,7 @@ class _PickupState:
         self._sent, self._telemetries_since = True, 0
 
     def update(self, request: PendingRequest) -> None:
-        """A telemetry came in: from the one on that shows the pickup, telemetries tell."""
+        """Note a telemetry; once one shows the pickup, telemetries alone tell whether it runs."""
         self._newest = request
         self._telemetries_since += 1
         if request.picking_up or self._telemetries_since >= PICKUP_TELEMETRIES:

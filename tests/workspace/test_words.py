@@ -1,0 +1,77 @@
+"""One word for one thing, in code, messages, documents, tests and output: the field's."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+# Files and folders that do not keep to the list yet.
+NOT_YET = (
+    "README.md", "docs/perception.md", "rover_tools", "tests/decision", "tests/graph",
+    "tests/simulator", "tests/tools",
+)  # fmt: skip
+# What is not written, as a pattern without regard to case, and what is written instead.
+WORDS = {
+    r"drivable_?way|home_?way|\bfree way\b": "path, home_path",
+    r"(?<!bread)crumb": "breadcrumb",
+    r"\bdesk\b|plandesk": "plan scheduler",
+    r"\bdata_?flow\b": "types",
+    r"\broomy\b|roomier": "wide, clearance",
+    r"\bfoot of|\bfeet of|walls?' (foot|feet)": "base (of a wall)",
+    r"\blooked at\b|\bfoot looks?\b": "observed, observations",
+    r"\bbelieved?\b": "confirmed",
+    r"\brockdetection\b": "RockTrack",
+    r"frame_? ?gate": "frame validation",
+    r"held_?monitor|progress_?monitor": "stall monitor, progress checker",
+    r"searched ground|hiding place": "coverage grid, unsearched cells",
+    r"\bdoubt(ful)?\b|goal_?memory": "blacklisted, retryable, goal history",
+    r"\bladders?\b|\brungs?\b": "recovery sequence, recovery step",
+    r"what_happened|\bsituations?\b": "detect event, tick context",
+    r"stamp_? ?join": "exact time synchronizer",
+    r"\bexchang": "request and answer, pending requests",
+    r"\btickets?\b": "pending request",
+    r"\badmit": "accept",
+    r"\bdriving client|active driver|client drives": "active client",
+    r"\bdialects?\b|bilingual": "protocol, dual protocol, number format",
+    r"protocol_? ?trouble": "protocol error",
+    r"\bfl(y|ies|ight|ights|own|ew)\b|in the air": "run, mission run, in progress",
+    r"usual recipe|reference recipe": "baseline",
+    r"driving map": "navigation map",
+    r"\bpercepts?\b": "perception result",
+}
+
+
+@cache
+def checked_lines() -> list[tuple[str, str]]:
+    """Where and what: all lines of tracked text files that keep to the list, but of this one."""
+    tracked = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.split("\0")
+    exempt = [ROOT / name for name in (*NOT_YET, Path(__file__))]
+    return [
+        (f"{path.relative_to(ROOT)}:{number}", line)
+        for path in (ROOT / name for name in tracked if name)
+        if path.is_file()
+        and path.suffix not in (".png", ".jpg")
+        and not any(path.is_relative_to(folder) for folder in exempt)
+        for number, line in enumerate(path.read_text().splitlines(), 1)
+    ]
+
+
+def test_what_is_exempt_is_there():
+    assert all((ROOT / name).exists() for name in NOT_YET)
+
+
+@pytest.mark.parametrize(("pattern", "instead"), WORDS.items(), ids=list(WORDS.values()))
+def test_the_fields_word_is_used(pattern, instead):
+    found = [
+        f"{where}: {line.strip()}"
+        for where, line in checked_lines()
+        if re.search(pattern, f"{where} {line}", re.IGNORECASE)
+    ]
+    assert found == [], f"write: {instead}"
