@@ -9,6 +9,8 @@ from rover_common.config import parameter
 
 @dataclass(frozen=True)
 class BridgeConfig:
+    """Read at the start of the node."""
+
     host: str = parameter("127.0.0.1", "address to listen on; 0.0.0.0 for other machines too")
     port: int = parameter(
         4567, "TCP port, 0 for any free one; the simulator wants 4567", minimum=0, maximum=65535

@@ -1,4 +1,4 @@
-"""Telemetry to messages."""
+"""Telemetry to messages; stamps are [ns]."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from rover_common.types import Run, Telemetry
 
 
 def status_of(stamp: int, run: Run, telemetry: Telemetry) -> RoverStatus:
+    """In base_link, the samples in the map frame."""
     return RoverStatus(
         header=header_of(stamp, frames.BASE),
         run=run.number,
@@ -36,6 +37,7 @@ def status_of(stamp: int, run: Run, telemetry: Telemetry) -> RoverStatus:
 
 
 def camera_info_of(stamp: int) -> CameraInfo:
+    """The exact pinhole, in camera_optical_frame."""
     camera = ROVER_CAMERA
     # ROS counts pixel centres as whole numbers, the camera model their left edges.
     cx, cy, f = camera.center_u - 0.5, camera.center_v - 0.5, camera.focal
@@ -84,6 +86,7 @@ def static_transforms_of(stamp: int) -> TFMessage:
 
 
 def clock_of(stamp: int) -> Clock:
+    """The time of the graph."""
     return Clock(clock=time_of(stamp))
 
 

@@ -6,6 +6,8 @@ from enum import StrEnum
 
 
 class Counter(StrEnum):
+    """Counts events of the node, but for `RUNS`, which is a number."""
+
     CONNECTIONS = "connections"  # clients that have connected
     PROTOCOL_ERRORS = "protocol_errors"  # messages that are no packet of either protocol
     TELEMETRIES = "telemetries"  # decoded and published

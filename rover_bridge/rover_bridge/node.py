@@ -31,7 +31,7 @@ from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequest
 from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import (
     Connected,
-    ProtocolError,
+    ProtocolErrorReported,
     ServerEvent,
     SocketServer,
     TelemetryReceived,
@@ -114,7 +114,7 @@ class BridgeNode(Node):
             elif isinstance(event, Connected):
                 self._diagnostics.counts[Counter.CONNECTIONS] += 1
                 self.get_logger().info(f"client {event.client} connected")
-            elif isinstance(event, ProtocolError):
+            elif isinstance(event, ProtocolErrorReported):
                 self._diagnostics.counts[Counter.PROTOCOL_ERRORS] += 1
                 self._warn(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
             else:

@@ -31,28 +31,34 @@ class PortInUseError(RoverError, OSError):
 
 @dataclass(frozen=True)
 class Connected:
+    """A client has joined the default namespace."""
+
     client: str
 
 
 @dataclass(frozen=True)
 class Disconnected:
+    """A client has left, or its connection has ended."""
+
     client: str
 
 
 @dataclass(frozen=True)
 class TelemetryReceived:
+    """A client sent the event `telemetry`."""
+
     client: str
     wire: object  # as it came: usually the telemetry object
 
 
 @dataclass(frozen=True)
-class ProtocolError:
+class ProtocolErrorReported:
     """A client sent a message that is no packet of either protocol; its connection has ended."""
 
     text: str
 
 
-ServerEvent = Connected | Disconnected | TelemetryReceived | ProtocolError
+ServerEvent = Connected | Disconnected | TelemetryReceived | ProtocolErrorReported
 
 
 class _ErrorLog(logging.Handler):
@@ -64,7 +70,7 @@ class _ErrorLog(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         cause = f": {record.exc_info[1]!r}" if record.exc_info else ""
-        self._on_event(ProtocolError((record.getMessage() + cause)[:200]))
+        self._on_event(ProtocolErrorReported((record.getMessage() + cause)[:200]))
 
 
 class SocketServer:

@@ -14,6 +14,8 @@ T = TypeVar("T", bool, int, float, str)
 
 @dataclass(frozen=True)
 class ParameterInfo:
+    """What a node tells of a parameter in its descriptor."""
+
     description: str  # with the unit in square brackets
     minimum: float | None = None
     maximum: float | None = None

@@ -1,5 +1,4 @@
-"""What flows between the nodes' cores: telemetry -> perception result -> decision
--> command.
+"""What flows between the nodes' cores: telemetry -> perception result -> decision -> command.
 
 Every type is frozen. Stamps are integers [ns] of the ROS clock; all that came in one telemetry, and
 all that was derived from it, carries the stamp of that telemetry.
@@ -70,6 +69,7 @@ class PolarArray:
 
     @classmethod
     def empty(cls) -> PolarArray:
+        """No point."""
         return cls(np.empty(0, np.float32), np.empty(0, np.float32))
 
 

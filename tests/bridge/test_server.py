@@ -24,7 +24,7 @@ from rover_bridge.server import (
     Connected,
     Disconnected,
     PortInUseError,
-    ProtocolError,
+    ProtocolErrorReported,
     ServerEvent,
     SocketServer,
     TelemetryReceived,
@@ -169,7 +169,7 @@ def test_garbage_is_reported_or_ignored_and_others_are_served(server, events, ca
 def test_a_message_of_neither_protocol_is_reported(server, events):
     raw = websocket.create_connection(url(server.port), timeout=5)
     raw.send("42[")
-    while not isinstance(event := events.get(timeout=10), ProtocolError):
+    while not isinstance(event := events.get(timeout=10), ProtocolErrorReported):
         pass
     assert "JSONDecodeError" in event.text
     raw.shutdown()

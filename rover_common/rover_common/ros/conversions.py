@@ -51,6 +51,7 @@ def time_of(stamp: int) -> Time:
 
 
 def header_of(stamp: int, frame: str) -> Header:
+    """`frame`: one of rover_common.frames."""
     return Header(stamp=time_of(stamp), frame_id=frame)
 
 
