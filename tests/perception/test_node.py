@@ -86,7 +86,7 @@ def test_parts_without_the_others_of_their_stamp_are_counted(ros, peer):
     counts = peer.node._diagnostics.counts
     for index in range(9):  # one more than may be incomplete at a time
         peer._odometry.publish(conversions.odometry_of(1_000_000_000 + index, POSE, 0.0))
-        assert ros.spin_until(lambda index=index: len(peer.node._join._parts) > min(index, 7))
+        assert ros.spin_until(lambda index=index: len(peer.node._join._sets) > min(index, 7))
     assert ros.spin_until(lambda: counts["frames_incomplete"] == 1)
     assert counts["frames"] == 0
 
