@@ -14,7 +14,8 @@ def error_classes() -> dict[str, list[set[str]]]:
     found: dict[str, list[set[str]]] = {}
     for path in ROOT.glob("rover_*/rover_*/**/*.py"):
         for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ClassDef) and node.name.endswith("Error"):
+            # A class without a base is an event that tells of an error, not an exception.
+            if isinstance(node, ast.ClassDef) and node.name.endswith("Error") and node.bases:
                 bases = {base.id for base in node.bases if isinstance(base, ast.Name)}
                 found.setdefault(node.name, []).append(bases)
     return found

@@ -1,4 +1,4 @@
-"""`rover bench perception`: time per frame and stage, and map scores, against a baseline.
+"""Time per frame and stage, and map scores, against a baseline.
 
 Runs the core without ROS, in one thread, on recorded runs if there are any, else on drives rendered
 through generated canyons. Reading the images is not measured.

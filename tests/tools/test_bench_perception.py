@@ -13,6 +13,7 @@ from rover_perception.perception import Perception
 from rover_simulator.recordings import recorder
 from rover_tools.benchmarks import perception as bench_perception
 from rover_tools.benchmarks.baseline import BaselinePerception
+from rover_tools.cli.main import main
 
 POSE = Pose(90.0, 100.5, 0.0)
 STAGES = [
@@ -56,7 +57,8 @@ def test_the_timer_measures_each_stage_of_the_pipeline_once_per_frame():
 def test_the_benchmark_reports_times_and_scores_of_both(tmp_path, monkeypatch, capsys):
     whole_drive = recorder.record_drive
     monkeypatch.setattr(recorder, "record_drive", partial(whole_drive, frames=25))
-    bench_perception.bench(generated=True, seeds=[1], out=tmp_path, as_json=True)
+    arguments = ["--generated", "--seeds", "1", "--json", "--out", str(tmp_path)]
+    assert main(["bench", "perception", *arguments]) == 0
     result = json.loads(capsys.readouterr().out.splitlines()[0])
     for stage in (*STAGES, "core", "world_map", "navigation_map", "baseline"):
         assert 0 < result[f"{stage}_ms_p50"] <= result[f"{stage}_ms_p99"]
