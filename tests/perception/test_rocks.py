@@ -13,7 +13,8 @@ from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
 from rover_perception.tracking.rock_detection import RockSighting, detect_rocks
 from rover_perception.tracking.rock_tracks import CONFIRMED_OBSERVATIONS, RockTracks
-from rover_simulator.sensors.renderer import Renderer, encode_jpeg
+from rover_simulator.sensors.jpeg import encode_jpeg
+from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.world.terrain import Terrain
 from rover_simulator.world.world import World
 
