@@ -70,7 +70,7 @@ def test_only_the_file_name_of_a_path_counts(tmp_path, path):
     ],
     ids=["comma separated", "decimal comma", "no header", "byte order mark"],
 )
-def test_dialects_of_the_log(tmp_path, header, line):
+def test_variants_of_the_log_are_read(tmp_path, header, line):
     (frame,) = read_recording(write(tmp_path, [header, line])).frames
     assert (frame.pose.x, frame.speed) == (99.67, 2.5)
 

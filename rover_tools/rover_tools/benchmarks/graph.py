@@ -26,11 +26,11 @@ def bench(frames: int, chosen: Path | None, out: Path | None, as_json: bool) -> 
         result = {"source": source, **measure(run, recording, frames)}
     write_result(folder, result)
     print_result(result, as_json, summary(result))
-    note(f"one exchange in flight, {WARM_UP} frames of warm-up not counted; results in {folder}")
+    note(f"one telemetry in flight, {WARM_UP} frames of warm-up not counted; results in {folder}")
 
 
 def measure(run: Run, recording: Recording, count: int) -> Result:
-    """Exchange `count` frames, one at a time, after a warm-up."""
+    """Send `count` frames, one at a time, after a warm-up."""
     client = UnityClient(run.host, run.port)
     client.connect(timeout=10.0)
     try:

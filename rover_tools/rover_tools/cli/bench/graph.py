@@ -22,7 +22,7 @@ from rover_tools.cli.options import json_option, out_option
 def command(frames: int, recording: Path | None, out: Path | None, as_json: bool) -> None:
     """Measure telemetry to command through the three nodes.
 
-    The nodes run as processes, connected by the wire and DDS; one exchange is in flight.
+    The nodes run as processes, connected by the wire and DDS; one telemetry at a time.
 
     \b
     Examples:
