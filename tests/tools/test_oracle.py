@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rover_common.geometry import Pose
-from rover_common.vehicle import PICKUP_SECONDS
+from rover_common.vehicle import ROVER
 from rover_simulator.world.generator import generate_world
 from rover_simulator.world.world import World
 from rover_tools.evaluation.oracle.ground import OracleGround
@@ -51,7 +51,7 @@ def test_a_short_leg_does_not_reach_top_speed():
 def test_a_corridor_with_a_sample_at_its_end_is_there_and_back():
     tour = oracle_tour(corridor(31, samples=[(50.5, 50.5)]))
     assert tour.metres == pytest.approx(60.0)
-    assert tour.seconds == pytest.approx(2 * leg_seconds(30.0) + PICKUP_SECONDS)
+    assert tour.seconds == pytest.approx(2 * leg_seconds(30.0) + ROVER.pickup_seconds)
     assert tour.path[0].tolist() == tour.path[-1].tolist() == [20.5, 50.5]
 
 
@@ -68,7 +68,7 @@ def test_what_is_in_sight_from_the_start_costs_nothing():
 
 def test_each_sample_takes_its_time_even_in_one_cell():
     one, two = (oracle_tour(corridor(9, [(25.5, 50.5)] * count)) for count in (1, 2))
-    assert two.seconds - one.seconds == pytest.approx(PICKUP_SECONDS)
+    assert two.seconds - one.seconds == pytest.approx(ROVER.pickup_seconds)
 
 
 def test_walls_are_not_seen_through():

@@ -39,7 +39,7 @@ WORDS = {
     r"\bdriving client|active driver|client drives": "active client",
     r"\bdialects?\b|bilingual": "protocol, dual protocol, number format",
     r"protocol_? ?trouble": "protocol error",
-    r"\bfl(y|ies|own|ew)\b|(?<!in )(?<!in_)(?<!in-)\bflights?\b|in the air": "run, mission run, in progress",
+    r"\bfl(y|ies|own|ew)\b|(?<!in[ _-])\bflights?\b|in the air": "run, mission run, in progress",
     r"usual recipe|reference recipe": "baseline",
     r"driving map": "navigation map",
     r"\bpercepts?\b": "perception result",

@@ -36,8 +36,7 @@ def format_telemetry(
     """
 
     def number(value: float, digits: int = 4) -> str:
-        text = _fixed(value, digits)
-        return text if decimal == "." else text.translate(SWAPPED_MARKS)
+        return _marked(_fixed(value, digits), decimal)
 
     telemetry = {
         "steering_angle": number(math.degrees(steering_angle)),
@@ -59,6 +58,10 @@ def format_telemetry(
         # Not the original's key, so without groups of thousands: a plain number for any reader.
         telemetry["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
     return telemetry
+
+
+def _marked(text: str, decimal: str) -> str:
+    return text if decimal == "." else text.translate(SWAPPED_MARKS)
 
 
 def _fixed(value: float, digits: int) -> str:

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
-from rover_common.vehicle import MAX_SPEED
+from rover_common.vehicle import ROVER
 from rover_simulator.vehicle.vehicle import BRAKE_INPUT, STEP, Controls, Slope, Vehicle
 
 THROTTLE = Controls(throttle=1.0)  # the most that the bridge sends
 BRAKE = Controls(brake=BRAKE_INPUT[-1])  # harder ones do not stop it sooner
-SPEEDS = np.linspace(0.0, MAX_SPEED, 501)  # [m/s] at which the profile is kept
+SPEEDS = np.linspace(0.0, ROVER.max_speed, 501)  # [m/s] at which the profile is kept
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ def profile() -> Profile:
     start = Pose(0.0, 0.0, 0.0)
     accelerating = _drive(Vehicle(start), THROTTLE)
     rolling = Vehicle(start)
-    rolling.roll_on(MAX_SPEED, THROTTLE)
+    rolling.roll_on(ROVER.max_speed, THROTTLE)
     braking = _drive(rolling, BRAKE)
     # The rest of the braking once the speed is reached, so that both grow with speed.
     braking = (braking[-1] * (1, 1, 0) - braking * (1, 1, -1))[::-1]
@@ -47,7 +47,7 @@ def leg_seconds(metres: float) -> float:
     """Time [s] for a straight leg, from standstill to standstill."""
     both = profile()
     top = float(np.interp(metres, both.metres, SPEEDS))
-    cruise = max(0.0, metres - float(both.metres[-1])) / MAX_SPEED
+    cruise = max(0.0, metres - float(both.metres[-1])) / ROVER.max_speed
     return float(np.interp(top, SPEEDS, both.seconds)) + cruise
 
 

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.vehicle import PICKUP_SECONDS
+from rover_common.vehicle import ROVER
 from rover_perception.config import PerceptionConfig
 from rover_simulator.world.world import World
 from rover_tools.evaluation.oracle.ground import OracleGround
@@ -65,5 +65,5 @@ def oracle_tour(world: World, sight: float = SIGHT) -> OracleTour:
         if trip.metres() > before - 0.5:
             break
     legs = trip.metres_between_stands()
-    seconds = sum(map(leg_seconds, legs)) + PICKUP_SECONDS * len(samples)
+    seconds = sum(map(leg_seconds, legs)) + ROVER.pickup_seconds * len(samples)
     return OracleTour(seconds, sum(legs), ground.centers[trip.path()])
