@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scene import ground_points
 
@@ -16,6 +16,7 @@ TILT = st.floats(-0.25, 0.25)
 
 
 @given(pitch=TILT, roll=TILT, x=st.floats(1.0, 20.0), side=st.floats(-1.2, 1.2))
+@settings(deadline=None)
 def test_projection_and_inverse_agree(pitch, roll, x, side):
     projection = GroundProjection.of(ROVER_CAMERA, Pose(0, 0, 0, pitch, roll))
     y = side * x
@@ -27,6 +28,7 @@ def test_projection_and_inverse_agree(pitch, roll, x, side):
 
 
 @given(pitch=TILT, roll=TILT)
+@settings(deadline=None)
 def test_the_projection_agrees_with_rays(pitch, roll):
     pose = Pose(0, 0, 0, pitch, roll)
     x, y, down = ground_points(pose)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rover_common.grid import GridGeometry
@@ -12,6 +12,7 @@ GEOMETRY = GridGeometry(1.0, rows=30, cols=40)
 
 
 @given(st.integers(0, 29), st.integers(0, 39), st.integers(0, 12), st.integers(1, 7))
+@settings(deadline=None)
 def test_the_blocks_of_a_region_are_those_that_it_touches(row, col, reach, count):
     region = Region.around(row, col, reach, GEOMETRY)
     cells = np.zeros((42, 42), bool)  # whole blocks
