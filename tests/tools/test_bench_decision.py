@@ -3,14 +3,16 @@
 import json
 import math
 import threading
+from types import SimpleNamespace
 
 import pytest
 
-from rover_decision.config import DecisionConfig
+from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 from rover_simulator.simulation import START_TIME, Simulation
 from rover_simulator.world.generator import generate_world
-from rover_tools.benchmarks.decision import COLUMNS, Costs, Stopwatch, TimedMission, TimedPlanner
+from rover_tools.benchmarks import decision
+from rover_tools.benchmarks.decision import COLUMNS, Costs, Stopwatch, timed_core
 from rover_tools.cli.main import main
 from rover_tools.evaluation.closed_loop import Loop
 
@@ -49,8 +51,7 @@ def test_the_table_is_for_people(tmp_path, capsys):
 
 def test_a_timed_mission_is_the_same_mission():
     world, config, costs = generate_world(2, 0.3), DecisionConfig(), Costs()
-    planner = TimedPlanner(config.explorer, costs)
-    timed = Loop(Simulation(world, 2, 4), mission=TimedMission(config, costs), planner=planner)
+    timed = Loop(Simulation(world, 2, 4), core=timed_core(config, costs))
     made: list[list] = [[], []]
     for loop, decisions in zip((Loop(Simulation(world, 2, 4)), timed), made, strict=True):
         loop.run(START_TIME + SECONDS, decisions.append)
@@ -60,21 +61,26 @@ def test_a_timed_mission_is_the_same_mission():
     assert len(costs.frames.laps) == len(made[0]) + 2  # two before the first step
 
 
-def test_a_lap_that_goes_on_counts_once():
+def test_waiting_counts_by_the_wall_clock_only():
     watch = Stopwatch()
     with watch.lap():
-        pass
-    ((wall, _),) = watch.laps
-    with watch.lap(goes_on=True):
         threading.Event().wait(0.02)
-    ((more_wall, more_thread),) = watch.laps
-    assert more_wall >= wall + 0.02
-    assert more_thread < more_wall  # a thread that waits does not work
+    ((wall, thread),) = watch.laps
+    assert wall >= 0.02
+    assert thread < wall
 
 
-def test_a_plan_that_fails_keeps_nobody_waiting():
+def test_a_plan_that_fails_ends_the_wait_for_it(monkeypatch):
+    def fail(_: object) -> None:
+        raise AttributeError
+
+    monkeypatch.setattr(decision, "make_planner", lambda _: SimpleNamespace(plan=fail))
+    handed: list = []
+    monkeypatch.setattr(decision, "TimedCore", lambda *parts: handed.append(parts))
     costs = Costs()
     costs.planned.clear()
+    timed_core(DecisionConfig(), costs)
     with pytest.raises(AttributeError):
-        TimedPlanner("tour", costs).plan(None)
+        handed[0][1](None)
     assert costs.planned.is_set()
+    assert len(costs.plans.laps) == 1
