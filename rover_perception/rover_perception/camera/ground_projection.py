@@ -19,7 +19,7 @@ Array = NDArray[np.floating]
 
 # Beyond the suspension's stop the body pivots about two wheels, which lifts its origin.
 SUSPENSION_STOP = math.radians(1.4)  # [rad]
-WHEEL_LEVER = 0.36  # [m] origin to wheel: mean of 0.386 front, 0.336 rear, 0.396 sides
+WHEEL_LEVER = 0.36  # [m] origin to wheel: mean of 0.386 front and 0.336 rear; 0.396 to the sides
 LOWEST_CAMERA = 0.1  # [m] below this the rover has turned over
 LEAST_UPRIGHT = 0.5  # cosine of the body's tilt: 60 degrees
 
