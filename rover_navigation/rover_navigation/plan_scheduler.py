@@ -78,6 +78,8 @@ class PlanScheduler:
 
     def give_map(self, stamp: int, grid: GridMap) -> None:
         """The map of a frame has come: start planning. A newer map serves older orders as well."""
+        if self._map is not None and stamp < self._map[0]:
+            return
         self._map = (stamp, grid)
         self._start()
 
@@ -133,9 +135,17 @@ class PlanScheduler:
         if self._map is None:
             return
         stamp, grid = self._map
-        for order in self._orders:
-            if order.future is None and order.stamp <= stamp:
+        for order in [order for order in self._orders if order.future is None]:
+            if order.stamp <= stamp:
+                if not self._lockstep:
+                    self._drop_overtaken()
                 order.future = self._pool.submit(self._make, order.make_request, grid)
+
+    def _drop_overtaken(self) -> None:
+        """A planner that is late makes the newest plan next: else each would be later still."""
+        self._orders = deque(
+            order for order in self._orders if order.future is None or not order.future.cancel()
+        )
 
     def _make(self, make_request: MakeRequest, grid: GridMap) -> Plan:
         """In the planner's thread."""
