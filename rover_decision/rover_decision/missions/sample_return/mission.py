@@ -59,6 +59,9 @@ class SampleReturnMission:
             return self._machine.handle(Event.pause)
         if request is Request.RESUME:
             return self._machine.handle(Event.resume)
+        if request is Request.START and self.idle:
+            self._return_requested = False
+            return True
         if request is Request.RETURN_HOME and not self.over:
             self._return_requested = True
             self._machine.handle(Event.finished)
@@ -147,7 +150,12 @@ class SampleReturnMission:
         before, self._entered_state = self._entered_state, self.state
         self._entered = tick.time
         self._parts.motion.restart(tick.time, may_stay=bool({before, self.state} - TO_AND_FRO))
-        tick = replace(tick, since=0.0, heading_home=self._machine.heading_home)
+        tick = replace(
+            tick,
+            since=0.0,
+            heading_home=self._machine.heading_home,
+            health=replace(tick.health, stopped_moving=False),  # it is a new attempt
+        )
         self._states[self.state].enter(tick, before)
         return tick
 
