@@ -46,7 +46,9 @@ def table() -> str:
     """Markdown: which event leads from where to where."""
     rows = []
     for event in Event:
-        found = sorted((t for t in transitions() if t.event is event), key=lambda t: t.source)
+        found = sorted(
+            (t for t in transitions() if t.event is event), key=lambda t: (t.source, t.target)
+        )
         sources = ", ".join(dict.fromkeys(t.source.name for t in found))
         targets = " or ".join(dict.fromkeys(t.target.name for t in found))
         rows.append((event.name, event.value, sources, targets))
