@@ -1,0 +1,99 @@
+"""Breadcrumbs, and the path home over them."""
+
+import math
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from maps import HALL, SCALE, UNKNOWN, costmap, grid
+
+from rover_common.geometry import Pose
+from rover_navigation.breadcrumb_path import breadcrumb_path
+from rover_navigation.breadcrumbs import Breadcrumbs
+from rover_navigation.path_smoothing import smooth_path
+from rover_navigation.types import BlockedPlace
+
+
+def length(points: np.ndarray) -> float:
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
+
+
+def test_breadcrumbs_lie_apart_and_begin_at_the_start():
+    breadcrumbs = Breadcrumbs(0.5)
+    assert breadcrumbs.points.shape == (0, 2)
+    for x in np.arange(0.0, 3.05, 0.1):
+        breadcrumbs.drop(Pose(float(x), 1.0, 0.0))
+    assert np.allclose(breadcrumbs.points[0], (0.0, 1.0))
+    assert (np.hypot(*np.diff(breadcrumbs.points, axis=0).T) >= 0.5).all()
+    assert 5 <= len(breadcrumbs.points) <= 7
+
+
+def test_loops_are_cut_out():
+    breadcrumbs = Breadcrumbs(SCALE.breadcrumb_spacing)
+    for angle in np.linspace(0, 2 * math.pi, 60):  # a loop that comes back near its beginning
+        breadcrumbs.drop(Pose(20 + 5 * math.sin(angle), 20 - 5 * math.cos(angle), 0))
+    trail = breadcrumbs.points
+    path = breadcrumb_path(trail, trail[-1], costmap(HALL, trail, body=(20, 15)), SCALE)
+    assert len(path) < 6
+    assert np.hypot(*(path[-1] - trail[0])) < 0.1
+
+
+def test_shortcuts_do_not_cut_through_walls():
+    around = grid((10, 10, 40, 14), (36, 10, 40, 30), (10, 26, 40, 30))
+    trail = np.array([(x, 12.0) for x in np.arange(12, 38)] + [(38.0, y) for y in range(12, 28)])
+    trail = np.concatenate([trail, [(x, 28.0) for x in np.arange(38, 12, -1.0)]])
+    here = (13.0, 28.0)
+    path = breadcrumb_path(trail, here, costmap(around, trail, body=here), SCALE)
+    assert length(path) > 55
+    assert path[:, 0].max() > 35
+
+
+def test_the_path_leads_around_a_place_where_the_robot_got_stuck():
+    loop = [(20.0, y) for y in np.arange(16, 25)] + [(x, 24.0) for x in np.arange(21, 31)]
+    loop += [(30.0, y) for y in np.arange(23, 16, -1.0)]
+    loop += [(x, 17.0) for x in np.arange(29, 20, -1)]
+    trail, here = np.array(loop, float), (28.0, 17.0)
+    free = breadcrumb_path(trail, here, costmap(HALL, trail, body=here), SCALE)
+    assert free[:, 1].max() < 18.0
+    stuck = costmap(HALL, trail, body=here, blocked=(BlockedPlace(24.0, 17.0, 1.0),))
+    around = breadcrumb_path(trail, here, stuck, SCALE)
+    assert np.hypot(*(around - (24.0, 17.0)).T).min() > 1.0
+    assert np.hypot(*(around[-1] - trail[0])) < 0.1
+
+
+def test_a_trail_of_less_than_two_points_is_its_own_path():
+    for count in (0, 1):
+        trail = np.full((count, 2), 20.0)
+        path = breadcrumb_path(trail, (21.0, 20.0), costmap(HALL, trail), SCALE)
+        assert np.array_equal(path, trail)
+
+
+METRES = st.floats(-80.0, 140.0)  # the map ends at 0 and 60 m
+STEPS = st.lists(st.tuples(st.floats(-9.0, 9.0), st.floats(-9.0, 9.0)), min_size=1, max_size=40)
+
+
+@settings(max_examples=150, deadline=None)
+@given(METRES, METRES, STEPS, st.tuples(METRES, METRES), st.sampled_from([HALL, UNKNOWN]))
+def test_a_trail_may_leave_the_costmap(x, y, steps, position, map_):
+    trail = np.array([(x, y)]) + np.cumsum(np.array([(0.0, 0.0), *steps]), axis=0)
+    made = costmap(map_, trail, body=position)
+    raw = breadcrumb_path(trail, position, made, SCALE)
+    nearest = trail[np.argmin(np.hypot(*(trail - position).T))]
+    assert math.dist(raw[0], position) <= math.dist(nearest, position) + 1e-6
+    assert np.allclose(raw[-1], trail[0])
+    driven = np.hypot(*np.diff(trail, axis=0).T)
+    assert np.hypot(*np.diff(raw, axis=0).T).max() <= 1.0 + max(0.5, driven.max())
+    path = smooth_path(raw, made, SCALE)
+    assert np.isfinite(path.points).all()
+    assert np.allclose(path.points[[0, -1]], raw[[0, -1]])
+    inside = made.geometry.contains(*made.geometry.cell_of(*path.points.T))
+    assert (path.speeds[~inside] == SCALE.path_speed_min).all()
+
+
+def test_obstacles_count_on_their_own_side_of_the_map_only():
+    """A trail beyond the map's south border, beside a wall at its north border."""
+    walled = grid((1, 1, 59, 50))
+    trail = np.array([(x, -8.0) for x in np.arange(10.0, 30.0, 0.5)])
+    made = costmap(walled, trail, body=(29.0, 2.0))
+    path = breadcrumb_path(trail, (29.5, -8.0), made, SCALE)
+    assert np.allclose(path[:, 1], -8.0)
