@@ -1,7 +1,8 @@
-"""The three nodes of the mission, and RViz on request.
+"""The three nodes of the mission, its live page, and RViz on request.
 
 ros2 launch rover_bringup mission.launch.py [params_file:=FILE] [use_sim_time:=true]
-    [namespace:=NAME] [log_level:=info] [use_rviz:=true] [host:=127.0.0.1] [port:=4567]
+    [namespace:=NAME] [log_level:=info] [dashboard:=false]
+    [use_rviz:=true] [host:=127.0.0.1] [port:=4567]
 
 A node that ends is started again after RESPAWN_DELAY; Ctrl-C ends all of them.
 """
@@ -19,6 +20,7 @@ ARGUMENTS = {
     "use_sim_time": ("false", "take the time from /clock, as the embedded simulator sends it"),
     "namespace": ("", "namespace of the nodes and their topics"),
     "log_level": ("info", "debug, info, warn or error"),
+    "dashboard": ("true", "serve the live page of `rover_dashboard`"),
     "use_rviz": ("false", "start RViz with the rover's view"),
     "host": ("127.0.0.1", "address that the bridge listens on"),
     "port": ("4567", "TCP port that the bridge listens on"),
@@ -62,10 +64,19 @@ def generate_launch_description() -> LaunchDescription:
         )
         for package, executable in NODES.items()
     ]
+    dashboard = Node(
+        package="rover_dashboard",
+        executable="dashboard_node",
+        name="dashboard_node",
+        namespace=LaunchConfiguration("namespace"),
+        output="screen",
+        parameters=[LaunchConfiguration("params_file")],
+        condition=IfCondition(LaunchConfiguration("dashboard")),
+    )
     rviz = Node(
         package="rviz2",
         executable="rviz2",
         arguments=["-d", PathJoinSubstitution([share, "rviz", "rover.rviz"])],
         condition=IfCondition(LaunchConfiguration("use_rviz")),
     )
-    return LaunchDescription([*arguments, *nodes, rviz])
+    return LaunchDescription([*arguments, *nodes, dashboard, rviz])

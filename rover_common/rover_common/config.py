@@ -20,6 +20,7 @@ class ParameterInfo:
     minimum: float | None = None
     maximum: float | None = None
     choices: tuple[str, ...] = ()
+    settable: bool = False  # while the node runs; the others are read at the start
 
 
 def parameter(
@@ -29,7 +30,8 @@ def parameter(
     minimum: float | None = None,
     maximum: float | None = None,
     choices: tuple[str, ...] = (),
+    settable: bool = False,
 ) -> Any:
     """A dataclass field that is also a ROS parameter."""
-    info = ParameterInfo(description, minimum, maximum, choices)
+    info = ParameterInfo(description, minimum, maximum, choices, settable)
     return field(default=default, metadata={"parameter": info})

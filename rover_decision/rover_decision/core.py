@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from enum import IntEnum
-from typing import Protocol
+from typing import Any, Protocol
 
 from rover_common.types import SAFE_COMMAND, GridMap, Run
 from rover_decision.types import Decision, Frame, Overlay, Request
@@ -32,6 +32,9 @@ class Mission(Protocol):
     @property
     def idle(self) -> bool:
         """It has not begun."""
+
+    def configure(self, config: Any) -> None:
+        """Go on with other parameters from the next tick on."""
 
     def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
         """Decide about one frame."""
@@ -117,6 +120,14 @@ class DecisionCore:
             self._leaving = self._run is not None
             return True
         return self._mission.request(request)
+
+    def configure(
+        self, config: Any, make_mission: Callable[[], Mission], make_plan: MakePlan
+    ) -> None:
+        """Other parameters: for the mission at hand, for those to come, and for the plans."""
+        self._make_mission = make_mission
+        self._plans.use(make_plan)
+        self._mission.configure(config)
 
     def limit_time(self, seconds: float) -> None:
         """Let this mission be home within so many seconds from its first frame on."""

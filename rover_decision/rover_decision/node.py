@@ -35,7 +35,7 @@ from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.sync import ExactTimeSynchronizer
 from rover_decision.conversions import markers_of, mission_state_of, path_message_of
-from rover_decision.missions.sample_return import make_core
+from rover_decision.missions.sample_return import configure, make_core
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.node_action import RunMissionServer
 from rover_decision.types import Decision, Frame, Request
@@ -57,7 +57,7 @@ class DecisionNode(Node):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("decision_node", **kwargs)
-        config = declare_parameters(self, DecisionConfig)
+        config = declare_parameters(self, DecisionConfig, self._on_config)
         lockstep = bool(self.get_parameter("use_sim_time").value)
         self._core = make_core(config, lockstep)
         self._sync = ExactTimeSynchronizer(tuple(FRAME_PARTS))
@@ -91,6 +91,10 @@ class DecisionNode(Node):
         if hasattr(self, "_core"):
             self._core.close()
         super().destroy_node()
+
+    def _on_config(self, config: DecisionConfig) -> None:
+        configure(self._core, config)
+        self.get_logger().info(f"parameters: {config}")
 
     def _on_request(
         self, request: Request, _: Trigger.Request, response: Trigger.Response

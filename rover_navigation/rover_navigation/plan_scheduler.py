@@ -55,6 +55,10 @@ class PlanScheduler:
         self.failures = 0  # in all
         self.last_failure = ""  # why the newest of them did not come
 
+    def use(self, plan: MakePlan) -> None:
+        """Make the plans with another planner from now on."""
+        self._plan = plan
+
     def begin(self, start: int) -> None:
         """A new run begins at a stamp [ns]: forget all that is older, and the plan in force."""
         for order in self._orders:

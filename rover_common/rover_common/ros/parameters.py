@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from collections.abc import Callable, Sequence
+from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from rover_common.config import ParameterInfo
 from rover_common.errors import RoverError
@@ -18,28 +25,67 @@ class ParameterError(RoverError, ValueError):
     """A parameter's value is not one of its choices."""
 
 
-def declare_parameters(node: Node, config_class: type[C]) -> C:
-    """Declare every field of the class, read-only, and return the class filled with the values.
+def declare_parameters(
+    node: Node, config_class: type[C], on_change: Callable[[C], None] | None = None
+) -> C:
+    """Declare every field of the class, and return the class filled with the values.
+
+    Fields that are settable may be set while the node runs, within the same ranges and choices;
+    `on_change` is called with the new configuration then. All others are read-only, and without
+    `on_change` every one is.
 
     Raises rclpy's InvalidParameterTypeException or InvalidParameterValueException for a wrong type
     or range, and ParameterError for a value that is not one of the choices.
     """
     values: dict[str, Any] = {}
+    infos: dict[str, ParameterInfo] = {}
     for field in fields(config_class):  # type: ignore[arg-type]
         info: ParameterInfo = field.metadata["parameter"]
+        infos[field.name] = info
+        read_only = on_change is None or not info.settable
         parameter = node.declare_parameter(
-            field.name, field.default, _descriptor(info, field.default)
+            field.name, field.default, _descriptor(info, field.default, read_only)
         )
         values[field.name] = parameter.value
-        if info.choices and parameter.value not in info.choices:
-            raise ParameterError(
-                f"{field.name}: '{parameter.value}' is not one of {', '.join(info.choices)}"
-            )
-    return config_class(**values)
+        problem = _problem(info, parameter)
+        if problem:
+            raise ParameterError(problem)
+    config = config_class(**values)
+    if on_change is not None:
+        _follow(node, config, infos, on_change)
+    return config
 
 
-def _descriptor(info: ParameterInfo, default: Any) -> ParameterDescriptor:
-    descriptor = ParameterDescriptor(description=info.description, read_only=True)
+def _follow(
+    node: Node, config: C, infos: dict[str, ParameterInfo], on_change: Callable[[C], None]
+) -> None:
+    """Check what is to be set, and pass on what was set; rclpy itself checks types and ranges."""
+
+    def check(parameters: Sequence[Parameter]) -> SetParametersResult:
+        problems = [_problem(infos[p.name], p) for p in parameters if p.name in infos]
+        reason = "; ".join(problem for problem in problems if problem)
+        return SetParametersResult(successful=not reason, reason=reason)
+
+    def pass_on(parameters: Sequence[Parameter]) -> None:
+        nonlocal config
+        new = {p.name: p.value for p in parameters if p.name in infos}
+        if new:
+            config = replace(config, **new)  # type: ignore[type-var]
+            on_change(config)
+
+    node.add_on_set_parameters_callback(check)
+    node.add_post_set_parameters_callback(pass_on)
+
+
+def _problem(info: ParameterInfo, parameter: Parameter) -> str:
+    """Why the value is not one of the choices; empty when it is."""
+    if not info.choices or parameter.value in info.choices:
+        return ""
+    return f"{parameter.name}: '{parameter.value}' is not one of {', '.join(info.choices)}"
+
+
+def _descriptor(info: ParameterInfo, default: Any, read_only: bool) -> ParameterDescriptor:
+    descriptor = ParameterDescriptor(description=info.description, read_only=read_only)
     if info.choices:
         descriptor.additional_constraints = "one of: " + ", ".join(info.choices)
     if info.minimum is not None and info.maximum is not None:

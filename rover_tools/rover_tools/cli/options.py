@@ -29,6 +29,12 @@ out_option = click.option(
 params_option = click.option(
     "--params", type=FILE, metavar="YAML", help="Parameters instead of those that ship."
 )
+no_dashboard_option = click.option(
+    "--no-dashboard", is_flag=True, help="Do not serve the live page."
+)
+open_option = click.option(
+    "--open", "open_page", is_flag=True, help="Show the live page in a browser."
+)
 
 
 class SeedsType(click.ParamType):

@@ -15,6 +15,7 @@ NODES = {
     "perception_node": "rover_perception",
     "decision_node": "rover_decision",
 }
+DASHBOARD = "dashboard_node"
 HOST = "127.0.0.1"
 
 
@@ -28,11 +29,17 @@ def executable(package: str, name: str) -> str:
     return str(Path(get_package_prefix(package)) / "lib" / package / name)
 
 
-def free_port() -> int:
-    """A TCP port on the loopback that is free now."""
-    with socket.socket() as probe:
-        probe.bind((HOST, 0))
-        return int(probe.getsockname()[1])
+def free_port(preferred: int = 0) -> int:
+    """A TCP port on the loopback that is free now: the preferred one, if it is."""
+    for port in (preferred, 0):
+        with socket.socket() as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((HOST, port))
+            except OSError:
+                continue
+            return int(probe.getsockname()[1])
+    raise OSError(f"no TCP port is free on {HOST}")
 
 
 def start_graph(

@@ -18,6 +18,7 @@ from rover_tools.evaluation.strategy import Strategy
 from rover_tools.progress import Progress
 from rover_tools.runner.graph import default_parameters
 from rover_tools.runner.graph_watch import GraphWatch
+from rover_tools.runner.page import start_page
 from rover_tools.runner.run import Run, running_graph
 
 SIMULATOR = "simulator"
@@ -37,10 +38,13 @@ def run_mission(
     parameters: Path | None = None,
     strategy: Strategy | None = None,
     fps: float = FPS,
+    page: bool = False,
+    open_page: bool = False,
 ) -> Result:
     """Run one mission to its end, score it, and write the result folder.
 
     time_limit [s]: of simulated time. A strategy that is not given is that of the parameters.
+    `page` serves the live page, `open_page` shows it in a browser.
     Raises ParametersError, GraphNotReadyError or ProcessDiedError.
     """
     world.save(folder / "world")
@@ -48,6 +52,8 @@ def run_mission(
     overrides = OVERRIDES | {"decision_node": strategy.parameters()}
     start = time.monotonic()
     with running_graph(folder, overrides, parameters) as run:
+        if page:
+            start_page(run, parameters or default_parameters(), open_page)
         run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
         done = _watch(run, time_limit)
         run.processes.end(SIMULATOR)  # only then has it printed its last position

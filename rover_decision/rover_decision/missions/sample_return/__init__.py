@@ -19,6 +19,11 @@ def make_planner(config: DecisionConfig) -> Planner:
     return Planner(ROVER_SCALE, selection(ROVER_SCALE))
 
 
+def configure(core: DecisionCore, config: DecisionConfig) -> None:
+    """Let a core of this mission go on with other parameters."""
+    core.configure(config, partial(SampleReturnMission, config), make_planner(config).plan)
+
+
 def make_core(config: DecisionConfig, lockstep: bool) -> DecisionCore:
     """The decision core of this mission; lockstep: frames wait for their plans."""
     mission = partial(SampleReturnMission, config)

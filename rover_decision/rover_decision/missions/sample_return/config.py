@@ -13,14 +13,18 @@ class DecisionConfig:
         "tour",
         "how to explore: tour, frontier, wall_follow_a or wall_follow_b",
         choices=("tour", "frontier", "wall_follow_a", "wall_follow_b"),
+        settable=True,
     )
     way_home: str = parameter(
         "breadcrumbs",
         "how to come home: breadcrumbs, shortest_path or bearing; the others are tried when it"
         " makes no progress",
         choices=("breadcrumbs", "shortest_path", "bearing"),
+        settable=True,
     )
-    top_speed: float = parameter(3.6, "[m/s] speed on open ground", minimum=0.2, maximum=5.0)
+    top_speed: float = parameter(
+        3.6, "[m/s] speed on open ground", minimum=0.2, maximum=5.0, settable=True
+    )
     stop_clearance: float = parameter(
         0.9,
         "[m] free ground ahead, beyond what braking takes, below which the rover stops",

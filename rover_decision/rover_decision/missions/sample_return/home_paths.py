@@ -65,13 +65,17 @@ class HomePaths:
     """Begins with the preferred method; the others follow when it makes no progress."""
 
     def __init__(self, preferred: str) -> None:
-        self._turn = [method.name for method in METHODS].index(preferred)
-        self._best, self._since = math.inf, 0.0
-        self._stuck = 0
+        self.prefer(preferred, 0.0)
 
     @property
     def method(self) -> HomePath:
         return METHODS[self._turn % len(METHODS)]
+
+    def prefer(self, name: str, time: float) -> None:
+        """Begin anew with this method at a time [s]."""
+        self._turn = [method.name for method in METHODS].index(name)
+        self._stuck = 0
+        self.begin(time)
 
     def begin(self, time: float) -> None:
         """Set out, or go on after an interruption: the clock starts anew."""

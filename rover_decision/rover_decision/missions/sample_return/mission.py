@@ -11,6 +11,7 @@ from functools import partial
 
 from rover_decision.missions.sample_return.chart import Event, Machine, State
 from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.drivers import Drivers
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states import make_states
 from rover_decision.missions.sample_return.tick import TickContext
@@ -32,13 +33,15 @@ class SampleReturnMission:
 
     def __init__(self, config: DecisionConfig) -> None:
         self._config = config
+        self._new_config: DecisionConfig | None = None  # for the next tick
         self._machine = Machine()
         self._entered_state = self._machine.state
         self._entered = 0.0  # [s] when
         self._time_limit = config.time_limit
         self._return_requested = False  # to be done when what goes on has come to its end
         self._parts = Parts.of(config)
-        self._states = make_states(config, self._parts)
+        self._drivers = Drivers(self._parts.actuation, self._parts.scale, config)
+        self._states = make_states(config, self._parts, self._drivers)
         self._tick: TickContext | None = None  # the newest
 
     @property
@@ -72,9 +75,14 @@ class SampleReturnMission:
         """Be home within so many seconds from the first frame on; 0 for the parameter's."""
         self._time_limit = seconds or self._config.time_limit
 
+    def configure(self, config: DecisionConfig) -> None:
+        """From the next tick on; of the parameters, those count that may be set in a mission."""
+        self._new_config = config
+
     def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
         """Decide about one frame."""
         parts = self._parts
+        self._apply_config(frame.time)
         tick = self._observe(frame, plans)
         event = self._states[self.state].event(tick)
         if event is not None and self._machine.handle(event):
@@ -115,6 +123,16 @@ class SampleReturnMission:
         if self._machine.heading_home:
             path = parts.home_paths.method.path(tick.plan, tick.pose)
         return Overlay(parts.breadcrumbs.points, parts.blocked.places, tick.plan, path)
+
+    def _apply_config(self, time: float) -> None:
+        """Replace what drives the rover; what is remembered stays."""
+        new, self._new_config = self._new_config, None
+        if new is None:
+            return
+        self._drivers.configure(new)
+        if new.way_home != self._config.way_home:
+            self._parts.home_paths.prefer(new.way_home, time)
+        self._config = new
 
     @property
     def _heads_home(self) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from rover_simulator.options import WorldOptions, seed_option, size_option
-from rover_tools.cli.options import json_option, out_option
+from rover_tools.cli.options import json_option, no_dashboard_option, open_option, out_option
 from rover_tools.output import note, print_result, result_folder
 
 TIME_LIMIT = 600.0  # [s] simulated
@@ -16,13 +16,18 @@ TIME_LIMIT = 600.0  # [s] simulated
 @click.command("demo")
 @seed_option("Seed of the canyon.")
 @size_option(0.4)
+@no_dashboard_option
+@open_option
 @out_option
 @json_option
-def command(seed: int, size: float, out: Path | None, as_json: bool) -> None:
+def command(
+    seed: int, size: float, no_dashboard: bool, open_page: bool, out: Path | None, as_json: bool
+) -> None:
     """Run a whole mission in a small generated canyon: explore, collect, return home.
 
     The three nodes run as they always do; the embedded simulator takes the place of the Unity
-    simulator. It ends after 600 s of simulated time at the latest.
+    simulator. Its live page is served meanwhile, at the address that is
+    printed. It ends after 600 s of simulated time at the latest.
 
     \b
     Examples:
@@ -33,7 +38,10 @@ def command(seed: int, size: float, out: Path | None, as_json: bool) -> None:
     from rover_tools.runner.mission import run_mission
 
     folder = result_folder("demo", out)
-    result = run_mission(WorldOptions(seed, size).load(), seed, TIME_LIMIT, folder)
+    result = run_mission(
+        WorldOptions(seed, size).load(), seed, TIME_LIMIT, folder,
+        page=not no_dashboard, open_page=open_page,
+    )  # fmt: skip
     print_result(result, as_json, summary(result))
     state = "is home" if result["done"] else "is not home"
     note(

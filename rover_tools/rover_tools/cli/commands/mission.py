@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING
 import click
 
 from rover_simulator.options import WorldOptions, fps_option, time_limit_option, world_options
-from rover_tools.cli.options import json_option, out_option, params_option, strategy_option
+from rover_tools.cli.options import (
+    json_option,
+    no_dashboard_option,
+    open_option,
+    out_option,
+    params_option,
+    strategy_option,
+)
 from rover_tools.output import note, print_result, result_folder
 
 if TYPE_CHECKING:
@@ -21,6 +28,8 @@ if TYPE_CHECKING:
 @fps_option()
 @time_limit_option(900.0, "Give up after this simulated time [s].")
 @params_option
+@no_dashboard_option
+@open_option
 @out_option
 @json_option
 def command(
@@ -29,6 +38,8 @@ def command(
     fps: float,
     time_limit: float,
     params: Path | None,
+    no_dashboard: bool,
+    open_page: bool,
     out: Path | None,
     as_json: bool,
 ) -> None:
@@ -49,8 +60,9 @@ def command(
     loaded = world.load()
     folder = result_folder("mission", out)
     result = run_mission(
-        loaded, world.seed, time_limit, folder, parameters=params, strategy=strategy, fps=fps
-    )
+        loaded, world.seed, time_limit, folder, parameters=params, strategy=strategy, fps=fps,
+        page=not no_dashboard, open_page=open_page,
+    )  # fmt: skip
     print_result(result, as_json, summary(result))
     note(
         f"{result['reason']} after {result['time']} s of simulated time, "

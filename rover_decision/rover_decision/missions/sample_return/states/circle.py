@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from rover_decision.missions.sample_return.chart import Event
-from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_decision.missions.sample_return.explorers import Explorer, SightDriver
-from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states.exploring import Exploring
 from rover_decision.missions.sample_return.tick import TickContext
-from rover_decision.trouble import Limits
 from rover_decision.types import Action
 
 CIRCLE_SECONDS = 10.0  # [s]
@@ -17,21 +13,10 @@ CIRCLE_SECONDS = 10.0  # [s]
 class Circle(Exploring):
     """Leaves the circle."""
 
-    def __init__(
-        self,
-        limits: Limits,
-        explorer: Explorer,
-        parts: Parts,
-        config: DecisionConfig,
-        sight: SightDriver,
-    ) -> None:
-        super().__init__(limits, explorer, parts, config)
-        self._sight = sight
-
     def _way_event(self, tick: TickContext) -> Event | None:
         if tick.since > CIRCLE_SECONDS:
             return Event.recovered
         return super()._way_event(tick)
 
     def act(self, tick: TickContext) -> Action:
-        return self._sight.leave_circle(tick)
+        return self._drivers.sight.leave_circle(tick)

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from rover_decision.missions.sample_return.chart import Event
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_decision.missions.sample_return.explorers import SHARP, Explorer
+from rover_decision.missions.sample_return.drivers import Drivers
+from rover_decision.missions.sample_return.explorers import SHARP
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states.moving import Moving
 from rover_decision.missions.sample_return.tick import TickContext
-from rover_decision.trouble import MOTION, PLANNING, Limits
+from rover_decision.trouble import MOTION, PLANNING, Limits, Trouble
 
 
 class Exploring(Moving):
     """A state of exploration: FORWARD, STOP or CIRCLE."""
 
     def __init__(
-        self, limits: Limits, explorer: Explorer, parts: Parts, config: DecisionConfig
+        self, limits: Limits, drivers: Drivers, parts: Parts, config: DecisionConfig
     ) -> None:
-        super().__init__(limits, MOTION | PLANNING if explorer.needs_plan else MOTION)
-        self._explorer = explorer
+        super().__init__(limits, MOTION)
+        self._drivers = drivers
         self._parts = parts
         self._config = config
+
+    def _watched_troubles(self) -> Collection[Trouble]:
+        return MOTION | PLANNING if self._drivers.explorer.needs_plan else MOTION
 
     def _sample_event(self, tick: TickContext) -> Event | None:
         reached = super()._sample_event(tick)
@@ -30,7 +36,7 @@ class Exploring(Moving):
         return Event.rock_seen if near and not tick.return_requested else None
 
     def _own_event(self, tick: TickContext) -> Event | None:
-        collected = self._explorer.samples_suffice and self._parts.samples.all_collected
+        collected = self._drivers.explorer.samples_suffice and self._parts.samples.all_collected
         if collected or self._parts.completion.reached(tick):
             return Event.finished
         return self._way_event(tick)
@@ -41,8 +47,8 @@ class Exploring(Moving):
 
     def _is_blocked(self, tick: TickContext) -> bool:
         """Whether there is too little free ground ahead; none is needed to turn in place."""
-        wanted = self._explorer.wanted_bearing(tick)
-        if abs(wanted) > SHARP or self._explorer.turns_in_place(tick):
+        wanted = self._drivers.explorer.wanted_bearing(tick)
+        if abs(wanted) > SHARP or self._drivers.explorer.turns_in_place(tick):
             return False
         braking = self._parts.actuation.braking_distance(tick.speed)
         return tick.local.clearance(wanted / 2) < self._config.stop_clearance + braking

@@ -19,4 +19,4 @@ class Forward(Exploring):
         return Event.circling if self._parts.circle.circling(tick.time) else None
 
     def act(self, tick: TickContext) -> Action:
-        return self._explorer.drive(tick)
+        return self._drivers.explorer.drive(tick)

@@ -24,10 +24,13 @@ class Moving(StateBehavior):
         self._watched = watched
 
     def event(self, tick: TickContext) -> Event | None:
-        trouble = first_trouble(tick.health, self._limits, self._watched)
+        trouble = first_trouble(tick.health, self._limits, self._watched_troubles())
         if trouble is not None:
             return Event[trouble.name]
         return self._own_trouble(tick) or self._sample_event(tick) or self._own_event(tick)
+
+    def _watched_troubles(self) -> Collection[Trouble]:
+        return self._watched
 
     def _own_trouble(self, tick: TickContext) -> Event | None:
         """Trouble of this state alone."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from rover_decision.missions.sample_return.chart import Event, State
-from rover_decision.missions.sample_return.home_paths import HomewardDriver
+from rover_decision.missions.sample_return.drivers import Drivers
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states.moving import Moving
 from rover_decision.missions.sample_return.tick import TickContext
@@ -17,14 +17,14 @@ class ReturnHome(Moving):
     def __init__(
         self,
         limits: Limits,
-        homeward: HomewardDriver,
+        drivers: Drivers,
         parts: Parts,
         home_radius: float,
     ) -> None:
         """home_radius: [m] that counts as there."""
         super().__init__(limits, MOTION)
         self._paths = parts.home_paths
-        self._homeward = homeward
+        self._drivers = drivers
         self._parts = parts
         self._home_radius = home_radius
 
@@ -40,4 +40,4 @@ class ReturnHome(Moving):
         return Event.arrived if distance < self._home_radius else None
 
     def act(self, tick: TickContext) -> Action:
-        return self._homeward.drive(tick, self._paths.method, self._parts.home)
+        return self._drivers.homeward.drive(tick, self._paths.method, self._parts.home)

@@ -24,9 +24,9 @@ class Stop(Exploring):
         return Event.stopped_moving if tick.since > STOP_SECONDS else None
 
     def _way_event(self, tick: TickContext) -> Event | None:
-        return Event.cleared if self._explorer.is_clear(tick) else None
+        return Event.cleared if self._drivers.explorer.is_clear(tick) else None
 
     def act(self, tick: TickContext) -> Action:
         if tick.speed > ROLLING:
             return self._parts.actuation.stop(), "no free ground ahead: stops"
-        return self._explorer.leave_stop(tick, self._side)
+        return self._drivers.explorer.leave_stop(tick, self._side)

@@ -1,0 +1,1 @@
+"""A live page: camera, map, state and controls of the rover in a browser."""

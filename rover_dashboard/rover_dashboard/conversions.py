@@ -1,0 +1,84 @@
+"""Messages to what the page shows, as values of JSON.
+
+Positions are [m] in the map frame, rounded to a centimetre.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from nav_msgs.msg import OccupancyGrid, Path
+from rover_interfaces.msg import MissionState, RoverStatus
+from sensor_msgs.msg import Image
+from visualization_msgs.msg import Marker, MarkerArray
+
+from rover_common.ros.conversions import grid_of, image_of, stamp_of
+from rover_common.types import VehicleState
+from rover_dashboard.encoders import Picture, StampedMap
+from rover_dashboard.history import StateReport
+
+Point = tuple[float, float]
+
+
+def picture_of(message: Image) -> Picture:
+    """Raises MessageError."""
+    return Picture(stamp_of(message.header.stamp), image_of(message))
+
+
+def map_of(message: OccupancyGrid) -> StampedMap:
+    return StampedMap(stamp_of(message.header.stamp), grid_of(message))
+
+
+def vehicle_of(vehicle: VehicleState, status: RoverStatus) -> dict[str, Any]:
+    """Where the rover is and what its wheels and its arm do; angles in degrees."""
+    return {
+        "stamp": vehicle.stamp * 1e-9,
+        "x": round(vehicle.pose.x, 2),
+        "y": round(vehicle.pose.y, 2),
+        "yaw": round(math.degrees(vehicle.pose.yaw), 1),
+        "speed": round(vehicle.speed, 2),
+        "steering": round(math.degrees(status.steering_angle), 1),
+        "throttle": round(status.throttle, 2),
+        "brake": round(status.brake, 2),
+        "arm": "picking up" if vehicle.picking_up else "in reach" if vehicle.near_sample else "",
+    }
+
+
+def mission_of(message: MissionState) -> dict[str, Any]:
+    return {
+        "stamp": stamp_of(message.header.stamp) * 1e-9,
+        "run": message.run,
+        "state": message.state_name,
+        "reason": message.reason,
+        "elapsed": round(message.elapsed, 1),
+        "explored": round(message.explored, 4),
+        "samples_total": message.samples_total,
+        "samples_collected": message.samples_collected,
+        "rocks_known": message.rocks_known,
+        "rocks_given_up": message.rocks_given_up,
+        "home_distance": round(message.home_distance, 1),
+        "distance": round(message.distance, 1),
+        "recoveries": message.recoveries,
+    }
+
+
+def report_of(message: MissionState) -> StateReport:
+    stamp = stamp_of(message.header.stamp)
+    return StateReport(stamp, message.run, message.state_name, message.reason)
+
+
+def plan_of(message: Path) -> list[Point]:
+    return [_point(pose.pose.position) for pose in message.poses]
+
+
+def markers_of(message: MarkerArray) -> dict[str, list[Point]]:
+    """Points by the markers' namespaces; those that were deleted are empty."""
+    return {
+        marker.ns: [_point(point) for point in marker.points] if marker.action == Marker.ADD else []
+        for marker in message.markers
+    }
+
+
+def _point(position: Any) -> Point:
+    return (round(position.x, 2), round(position.y, 2))

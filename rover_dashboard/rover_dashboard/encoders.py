@@ -1,0 +1,82 @@
+"""Pictures and maps as bytes for a browser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+import numpy as np
+
+from rover_common.types import GridMap
+
+JPEG_QUALITY = 85
+MARGIN = 3.0  # [m] of unknown ground shown around what is known
+UNKNOWN = 255  # in a map's picture; otherwise the probability of an obstacle [%]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """An image of a topic."""
+
+    stamp: int  # [ns]
+    image: np.ndarray  # (height, width, 3) uint8 RGB
+
+
+@dataclass(frozen=True)
+class StampedMap:
+    """A map of a topic."""
+
+    stamp: int  # [ns]
+    grid: GridMap
+
+
+@dataclass(frozen=True)
+class Encoded:
+    """What goes over the wire: facts for a header, and bytes."""
+
+    facts: dict[str, Any]
+    content: bytes
+
+
+def jpeg_of(picture: Picture) -> Encoded:
+    """For camera images."""
+    bgr = cv2.cvtColor(picture.image, cv2.COLOR_RGB2BGR)
+    _, data = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+    return Encoded({"type": "image/jpeg", "stamp": picture.stamp * 1e-9}, data.tobytes())
+
+
+def png_of(picture: Picture) -> Encoded:
+    """For images of few colours, exactly."""
+    bgr = cv2.cvtColor(picture.image, cv2.COLOR_RGB2BGR)
+    _, data = cv2.imencode(".png", bgr, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+    return Encoded({"type": "image/png", "stamp": picture.stamp * 1e-9}, data.tobytes())
+
+
+def map_of(stamped: StampedMap) -> Encoded | None:
+    """The part of a map that is known, as a grey picture with north at its top.
+
+    The facts place the picture in the map frame: its south-west corner and its size [m]. None when
+    nothing is known.
+    """
+    grid = stamped.grid
+    known = grid.cells >= 0
+    rows, columns = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
+    if not len(rows):
+        return None
+    margin = round(MARGIN / grid.resolution)
+    top, left = max(0, rows[0] - margin), max(0, columns[0] - margin)
+    cells = grid.cells[top : rows[-1] + margin + 1, left : columns[-1] + margin + 1]
+    grey = np.where(cells < 0, UNKNOWN, cells).astype(np.uint8)
+    _, data = cv2.imencode(".png", np.flipud(grey))
+    cell_area = grid.resolution**2
+    facts = {
+        "type": "image/png",
+        "stamp": stamped.stamp * 1e-9,
+        "x": grid.origin_x + float(left) * grid.resolution,
+        "y": grid.origin_y + float(top) * grid.resolution,
+        "width": cells.shape[1] * grid.resolution,
+        "height": cells.shape[0] * grid.resolution,
+        "ground": round(float(np.count_nonzero(known & (grid.cells < 50))) * cell_area),
+    }
+    return Encoded(facts, data.tobytes())

@@ -1,0 +1,63 @@
+// Leads each message of the node to the part of the page that shows it.
+
+import { Connection } from "./connection.js";
+import { Controls } from "./controls.js";
+import { MapView } from "./map.js";
+import { showGround, showMission, showVehicle } from "./numbers.js";
+import { Pictures } from "./pictures.js";
+import { Plots } from "./plots.js";
+import { Timeline } from "./timeline.js";
+
+const map = new MapView();
+const pictures = new Pictures();
+const plots = new Plots();
+const timeline = new Timeline();
+const link = document.getElementById("link");
+let simulator = null;
+let connected = "connecting";
+
+const parts = {
+  camera: (message) => pictures.show("camera", message),
+  vision: (message) => pictures.show("vision", message),
+  map: (message) => {
+    map.showMap(message);
+    showGround(message.ground);
+  },
+  plan: ({ data }) => map.show("plan", data),
+  markers: ({ data }) => map.show("markers", data),
+  vehicle: ({ data }) => {
+    map.show("vehicle", data);
+    showVehicle(data);
+  },
+  mission: ({ data }) => {
+    showMission(data);
+    if (data) timeline.advance(data.elapsed);
+    document.documentElement.dataset.state = data?.state ?? "";
+  },
+  track: ({ data }) => map.addTrack(data),
+  plots: ({ data }) => plots.add(data),
+  timeline: ({ data }) => timeline.add(data),
+  settings: ({ data }) => controls.offer(data),
+  parameters: ({ data }) => controls.showValues(data),
+  simulator: ({ data }) => {
+    simulator = data;
+    showLink();
+  },
+};
+
+const connection = new Connection(
+  (message) => parts[message.slot]?.(message),
+  (state) => {
+    connected = state;
+    showLink();
+  },
+);
+const controls = new Controls(connection);
+
+function showLink() {
+  const waiting = connected === "connected" && simulator !== "connected";
+  link.dataset.link = waiting ? "waiting" : connected;
+  link.textContent = waiting
+    ? "no simulator"
+    : { connecting: "connecting", connected: "live", lost: "connection lost, trying again" }[connected];
+}
