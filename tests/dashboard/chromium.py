@@ -68,7 +68,9 @@ class Page:
     async def open(self, address: str) -> None:
         await self.send("Page.navigate", url=address)
 
-    async def show_as(self, width: int, height: int, *, scale: float = 1, dark: bool = False) -> None:
+    async def show_as(
+        self, width: int, height: int, *, scale: float = 1, dark: bool = False
+    ) -> None:
         """Size of the window [px], pixels of the screen to one of it, and the colour scheme."""
         await self.send(
             "Emulation.setDeviceMetricsOverride",
@@ -149,9 +151,10 @@ async def chromium() -> AsyncIterator[Browser]:
         )  # fmt: skip
         try:
             address = await asyncio.wait_for(_address(Path(profile)), START_SECONDS)
-            async with ClientSession() as session, session.ws_connect(
-                address, max_msg_size=0
-            ) as socket:
+            async with (
+                ClientSession() as session,
+                session.ws_connect(address, max_msg_size=0) as socket,
+            ):
                 browser = Browser(socket)
                 yield browser
                 with suppress(ConnectionError, TimeoutError):
