@@ -112,7 +112,7 @@ class History:
         self._period = PERIOD
         self._due = -math.inf  # [s] the next sample
         self._frames = 0  # since the last sample, which was taken
-        self._sampled = self._clock()  # [s] then
+        self._sampled: float | None = None  # [s] then
         self._latencies: list[float] = []  # [s] since then
 
     def _elapsed(self, stamp: int) -> float:
@@ -131,7 +131,8 @@ class History:
         if elapsed < self._due:
             return
         now = self._clock()
-        seconds, latencies = now - self._sampled, self._latencies
+        latencies = self._latencies
+        seconds = 0.0 if self._sampled is None else now - self._sampled
         row = (
             elapsed,
             round(vehicle.speed, 2),

@@ -14,6 +14,7 @@ from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.types import Request
 
 Value = str | float
+REQUESTS = [request.value for request in Request]
 SETTABLE: dict[str, ParameterInfo] = {
     field.name: field.metadata["parameter"]
     for field in fields(DecisionConfig)
@@ -64,7 +65,7 @@ def parse(text: str) -> Ask:
         raise ProtocolError("no object with a whole number as its id")
     request = data.get("request")
     if request is not None:
-        if request not in {known.value for known in Request}:
+        if request not in REQUESTS:
             raise ProtocolError(f"no request {request!r}")
         return Ask(data["id"], request=request)
     name, value = data.get("set"), data.get("value")

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import pytest
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from rover_common.config import parameter
 from rover_common.ros.parameters import ParameterError, declare_parameters
@@ -35,3 +36,46 @@ def test_a_parameter_out_of_range_is_refused(ros, values, error):
     node = ros.add(lambda **kwargs: Node("n", **kwargs), **values)
     with pytest.raises(error):
         declare_parameters(node, Config)
+
+
+@dataclass(frozen=True)
+class Settable:
+    speed: float = parameter(1.0, "[m/s] speed", minimum=0.0, maximum=5.0, settable=True)
+    kind: str = parameter("red", "colour", choices=("red", "blue"), settable=True)
+    count: int = parameter(3, "how many", minimum=1, maximum=9)
+
+
+@pytest.fixture
+def changes(ros):
+    """A node with settable parameters, and the configurations that it was given."""
+    node, given = ros.add(lambda **kwargs: Node("n", **kwargs)), []
+    declare_parameters(node, Settable, given.append)
+    return node, given
+
+
+def test_a_settable_parameter_changes_the_configuration(changes):
+    node, given = changes
+    (result,) = node.set_parameters([Parameter("speed", value=2.5)])
+    assert result.successful
+    node.set_parameters_atomically([Parameter("speed", value=3.0), Parameter("kind", value="blue")])
+    assert given == [Settable(speed=2.5), Settable(speed=3.0, kind="blue")]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("speed", 5.5), ("speed", float("nan")), ("speed", "fast"), ("kind", "green"), ("count", 4)],
+)
+def test_a_value_that_cannot_be_is_refused_before_it_takes_effect(changes, name, value):
+    node, given = changes
+    (result,) = node.set_parameters([Parameter(name, value=value)])
+    assert not result.successful
+    assert result.reason
+    assert given == []
+    assert node.get_parameter(name).value == getattr(Settable(), name)
+
+
+def test_without_a_listener_nothing_is_settable(ros):
+    node = ros.add(lambda **kwargs: Node("n", **kwargs))
+    declare_parameters(node, Settable)
+    (result,) = node.set_parameters([Parameter("speed", value=2.5)])
+    assert not result.successful

@@ -31,6 +31,7 @@ class Page:
     def __init__(self, browser: Browser, session: str) -> None:
         self._browser = browser
         self.session = session
+        self._loaded = asyncio.Event()
         self.errors: list[str] = []  # exceptions, and what the console calls errors
 
     async def send(self, method: str, **parameters: Any) -> dict[str, Any]:
@@ -66,7 +67,10 @@ class Page:
         await self.evaluate(f"document.querySelector({json.dumps(selector)}).click()")
 
     async def open(self, address: str) -> None:
+        """Until all of it has loaded."""
+        self._loaded.clear()
         await self.send("Page.navigate", url=address)
+        await asyncio.wait_for(self._loaded.wait(), WAIT)
 
     async def show_as(
         self, width: int, height: int, *, scale: float = 1, dark: bool = False
@@ -76,6 +80,7 @@ class Page:
             "Emulation.setDeviceMetricsOverride",
             width=width, height=height, deviceScaleFactor=scale, mobile=width < 600,
         )  # fmt: skip
+        await self.send("Emulation.setScrollbarsHidden", hidden=True)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         await self.send("Emulation.setEmulatedMedia", features=[scheme])
 
@@ -85,7 +90,9 @@ class Page:
         path.write_bytes(base64.b64decode(answer["data"]))
 
     def on_event(self, method: str, parameters: dict[str, Any]) -> None:
-        if method == "Runtime.exceptionThrown":
+        if method == "Page.loadEventFired":
+            self._loaded.set()
+        elif method == "Runtime.exceptionThrown":
             self.errors.append(json.dumps(parameters["exceptionDetails"]))
         elif method == "Log.entryAdded" and parameters["entry"]["level"] == "error":
             self.errors.append(json.dumps(parameters["entry"]))

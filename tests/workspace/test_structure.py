@@ -15,6 +15,7 @@ import pytest
 import yaml
 
 from rover_bridge.config import BridgeConfig
+from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 
@@ -27,6 +28,7 @@ CONFIGS = {
     "bridge_node": BridgeConfig,
     "perception_node": PerceptionConfig,
     "decision_node": DecisionConfig,
+    "dashboard_node": DashboardConfig,
 }
 MESSAGE_PACKAGES = {
     "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav_msgs",
@@ -54,6 +56,7 @@ ROSDEP_KEYS = {
     "websocket": "python3-websocket",
     "embreex": "python3-embreex-pip",
     "statemachine": "python3-python-statemachine-pip",
+    "aiohttp": "python3-aiohttp",
 }
 WITH_ROSDEP_KEY = set(ROSDEP_KEYS) | MESSAGE_PACKAGES | {"rclpy", "ament_index_python"}
 

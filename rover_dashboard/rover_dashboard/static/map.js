@@ -72,7 +72,7 @@ export class MapView {
     if (!bounds) return;
     const view = new View(bounds, width, height);
     this.drawPicture(context, view);
-    drawTrack(context, view, this.track);
+    drawTrack(context, view, this.track, this.markers?.breadcrumbs ?? []);
     drawHome(context, view, this.track[0]);
     drawOverlay(context, view, this.markers ?? {}, this.plan);
     drawRover(context, view, this.vehicle);

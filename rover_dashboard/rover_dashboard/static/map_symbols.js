@@ -6,8 +6,10 @@ const ROVER = 9; // [px] from its middle to its nose
 const SCALES = [1, 2, 5, 10, 20, 50, 100]; // [m]
 const SCALE_LENGTH = 110; // [px] at most
 
-export function drawTrack(context, view, track) {
-  line(context, view, track, "track", 2);
+// The breadcrumbs lie on the track: wider dots below it.
+export function drawTrack(context, view, track, breadcrumbs) {
+  for (const point of breadcrumbs) dot(context, view.at(point), 2.6, "crumb");
+  line(context, view, track, "track", 1.5);
 }
 
 export function drawHome(context, view, home) {
@@ -24,7 +26,6 @@ export function drawHome(context, view, home) {
 
 // markers: points by namespace, as in mission_markers
 export function drawOverlay(context, view, markers, plan) {
-  for (const point of markers.breadcrumbs ?? []) dot(context, view.at(point), 1.4, "crumb");
   for (const point of markers.frontiers ?? []) ring(context, view.at(point), 4, 2, "frontier");
   line(context, view, plan ?? markers.path ?? [], "plan", 3);
   for (const point of markers.goal ?? []) {
