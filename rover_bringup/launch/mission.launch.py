@@ -20,7 +20,7 @@ ARGUMENTS = {
     "use_sim_time": ("false", "take the time from /clock, as the embedded simulator sends it"),
     "namespace": ("", "namespace of the nodes and their topics"),
     "log_level": ("info", "debug, info, warn or error"),
-    "dashboard": ("true", "serve the live page of `rover_dashboard`"),
+    "dashboard": ("true", "serve the live page"),
     "use_rviz": ("false", "start RViz with the rover's view"),
     "host": ("127.0.0.1", "address that the bridge listens on"),
     "port": ("4567", "TCP port that the bridge listens on"),

@@ -56,7 +56,7 @@ class PlanScheduler:
         self.last_failure = ""  # why the newest of them did not come
 
     def use(self, plan: MakePlan) -> None:
-        """Make the plans with another planner from now on."""
+        """Make the plans with another planner; those that are being made are not."""
         self._plan = plan
 
     def begin(self, start: int) -> None:
@@ -143,7 +143,7 @@ class PlanScheduler:
             if order.stamp <= stamp:
                 if not self._lockstep:
                     self._drop_overtaken()
-                order.future = self._pool.submit(self._make, order.make_request, grid)
+                order.future = self._pool.submit(_make, self._plan, order.make_request, grid)
 
     def _drop_overtaken(self) -> None:
         """A planner that is late makes the newest plan next: else each would be later still."""
@@ -151,12 +151,13 @@ class PlanScheduler:
             order for order in self._orders if order.future is None or not order.future.cancel()
         )
 
-    def _make(self, make_request: MakeRequest, grid: GridMap) -> Plan:
-        """In the planner's thread."""
-        return self._plan(make_request(grid))
-
     def _counts(self, order: _Order, stamp: int) -> bool:
         return stamp >= order.stamp + self._delay
+
+
+def _make(plan: MakePlan, make_request: MakeRequest, grid: GridMap) -> Plan:
+    """In the planner's thread."""
+    return plan(make_request(grid))
 
 
 def _pool() -> ThreadPoolExecutor:

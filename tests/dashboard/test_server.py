@@ -198,6 +198,7 @@ async def test_the_viewers_end_with_the_server(it: Served):
     page = await it.connect()
     await receive(page, "settings")
     await it.server.close()
-    while (await page.receive(WAIT)).type is not WSMsgType.CLOSE:
-        pass
-    assert page.close_code == 1001
+    message = await page.receive(WAIT)
+    while message.type is WSMsgType.TEXT:
+        message = await page.receive(WAIT)
+    assert (message.type, message.data) == (WSMsgType.CLOSE, 1001)
