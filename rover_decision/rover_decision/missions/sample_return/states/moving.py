@@ -14,7 +14,7 @@ SLOW = 1.0  # [m/s] from which it stops within 0.2 m, so that the sample stays i
 
 
 class Moving(StateBehavior):
-    """Trouble first, then a sample in reach, then what concerns the state itself."""
+    """The arm first, then trouble, then a sample in reach, then what concerns the state itself."""
 
     def __init__(
         self, limits: Limits, watched: Collection[Trouble], tilt_factor: float = 1.0
@@ -24,6 +24,8 @@ class Moving(StateBehavior):
         self._watched = watched
 
     def event(self, tick: TickContext) -> Event | None:
+        if tick.frame.vehicle.picking_up:  # late, or started by somebody else
+            return Event.rock_reached
         trouble = first_trouble(tick.health, self._limits, self._watched_troubles())
         if trouble is not None:
             return Event[trouble.name]
@@ -38,7 +40,7 @@ class Moving(StateBehavior):
 
     def _sample_event(self, tick: TickContext) -> Event | None:
         vehicle = tick.frame.vehicle
-        if vehicle.near_sample and not vehicle.picking_up and abs(vehicle.speed) < SLOW:
+        if vehicle.near_sample and abs(vehicle.speed) < SLOW:
             return Event.rock_reached
         return None
 
