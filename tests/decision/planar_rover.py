@@ -175,8 +175,8 @@ def rover_in_ring() -> PlanarRover:
     return PlanarRover(ring(), Pose(83.0, 100.0, 1.57), [(83.0, 110.0), (100.0, 118.5)])
 
 
-def rover_in_bends() -> PlanarRover:
-    return PlanarRover(bends(), Pose(83.0, 98.5, 0.0), [(95.0, 100.5), (125.0, 117.0)])
+def rover_in_bends(kind: type[PlanarRover] = PlanarRover) -> PlanarRover:
+    return kind(bends(), Pose(83.0, 98.5, 0.0), [(95.0, 100.5), (125.0, 117.0)])
 
 
 Watch = Callable[[Frame, Decision], None]
