@@ -37,11 +37,10 @@ class Page:
     async def send(self, method: str, **parameters: Any) -> dict[str, Any]:
         return await self._browser.send(method, parameters, self.session)
 
-    async def evaluate(self, expression: str) -> Any:
+    async def evaluate(self, expression: str, timeout: float = WAIT) -> Any:
         """The value of an expression of JavaScript, or of the promise that it is."""
-        answer = await self.send(
-            "Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True
-        )
+        wanted = {"expression": expression, "awaitPromise": True, "returnByValue": True}
+        answer = await self._browser.send("Runtime.evaluate", wanted, self.session, timeout)
         if "exceptionDetails" in answer:
             raise AssertionError(answer["exceptionDetails"])
         return answer["result"].get("value")
@@ -57,7 +56,8 @@ class Page:
                 else setTimeout(look, 20);
               }};
               look();
-            }})"""
+            }})""",
+            timeout + WAIT,
         )
 
     async def text(self, selector: str) -> str:
@@ -109,7 +109,11 @@ class Browser:
         self.reader = asyncio.create_task(self._read())
 
     async def send(
-        self, method: str, parameters: dict[str, Any], session: str | None = None
+        self,
+        method: str,
+        parameters: dict[str, Any],
+        session: str | None = None,
+        timeout: float = WAIT,
     ) -> dict[str, Any]:
         self._last += 1
         message = {"id": self._last, "method": method, "params": parameters}
@@ -117,7 +121,7 @@ class Browser:
             message["sessionId"] = session
         answer = self._answers[self._last] = asyncio.get_running_loop().create_future()
         await self._socket.send_json(message)
-        return await asyncio.wait_for(answer, 2 * WAIT)
+        return await asyncio.wait_for(answer, timeout)
 
     async def new_page(self) -> Page:
         target = await self.send("Target.createTarget", {"url": "about:blank"})

@@ -32,7 +32,9 @@ const parts = {
   mission: ({ data }) => {
     showMission(data);
     if (data) timeline.advance(data.elapsed);
-    document.documentElement.dataset.state = data?.state ?? "";
+    const { dataset } = document.documentElement;
+    dataset.elapsed = data?.elapsed ?? 0;
+    dataset.run = data?.run ?? 0;
   },
   track: ({ data }) => map.addTrack(data),
   plots: ({ data }) => plots.add(data),
