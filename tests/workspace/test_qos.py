@@ -22,12 +22,13 @@ from rosgraph_msgs.msg import Clock
 
 from rover_bridge.node import BridgeNode
 from rover_common import topics
+from rover_dashboard.node import DashboardNode
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
 from rover_tools.runner.graph_watch import GraphWatch
 
 RVIZ = Path(__file__).resolve().parents[2] / "rover_bringup" / "rviz" / "rover.rviz"
-NODES = {"bridge_node", "perception_node", "decision_node"}
+NODES = {"bridge_node", "perception_node", "decision_node", "dashboard_node"}
 WATCH = "watch"
 # What rclpy itself adds to every node.
 OF_EVERY_NODE = {"/rosout", "/parameter_events"}
@@ -56,10 +57,11 @@ class Endpoints:
 
 @pytest.fixture
 def graph(ros) -> Iterator[Node]:
-    """The three nodes in one context, and the watcher in its own; one node that sees them all."""
+    """All nodes in one context, and the watcher in its own; one node that sees them all."""
     bridge = ros.add(BridgeNode, port=0)
     ros.add(PerceptionNode, use_sim_time=True)
     ros.add(DecisionNode, use_sim_time=True)
+    ros.add(DashboardNode, port=0).set_watched(True)
     with GraphWatch(domain_id()):
         found = NODES | {WATCH}
         assert ros.spin_until(lambda: found <= set(bridge.get_node_names()))
