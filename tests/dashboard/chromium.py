@@ -46,7 +46,7 @@ class Page:
         return answer["result"].get("value")
 
     async def becomes(self, condition: str, timeout: float = WAIT) -> bool:
-        """Whether an expression becomes true in time [s], looked at in the page itself."""
+        """Whether an expression becomes true in time [s], asked in the page itself."""
         return await self.evaluate(
             f"""new Promise((resolve) => {{
               const end = performance.now() + {1000 * timeout};

@@ -229,7 +229,7 @@ def test_bash_completes_commands_and_options(words, completions, tmp_path, capsy
     script = tmp_path / "completion.bash"
     script.write_text(capsys.readouterr().out)
     program = tmp_path / "rover"  # called by its path, as ./rover is
-    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m rover_tools.cli.main "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m rover_tools.cli.main "$@"\n')
     program.chmod(0o755)
     done = subprocess.run(
         ["bash", "-c", COMPLETE, "bash", str(script), *words],

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# The command line's hints name what people may type instead.
+# The command line's hints name what people may type instead; vendored files are others' work.
 NOT_YET = (
-    "rover_tools/rover_tools/cli/hints.py", "tests/decision", "tests/graph",
+    "rover_dashboard/rover_dashboard/static/vendor", "rover_tools/rover_tools/cli/hints.py",
     "tests/tools/test_command_line.py",
 )  # fmt: skip
 # What is not written, as a pattern without regard to case, and what is written instead.
