@@ -30,6 +30,16 @@ def test_a_dead_process_is_told_with_the_end_of_its_log(tmp_path):
             processes.check()
 
 
+def test_the_end_of_an_optional_process_is_no_failure(tmp_path):
+    with Processes(tmp_path, {}) as processes:
+        processes.start("page", [sys.executable, "-c", ""])
+        wait_for(lambda: processes.ended("page") is not None)
+        with pytest.raises(ProcessDiedError):
+            processes.check()
+        processes.make_optional("page")
+        processes.check()
+
+
 def test_all_processes_end_with_the_block(tmp_path):
     code = "import os, signal; print(os.getpid(), flush=True); signal.pause()"
     stubborn = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); " + code

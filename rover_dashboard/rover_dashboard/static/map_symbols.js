@@ -8,7 +8,7 @@ const SCALE_LENGTH = 110; // [px] at most
 
 // The breadcrumbs lie on the track: wider dots below it.
 export function drawTrack(context, view, track, breadcrumbs) {
-  for (const point of breadcrumbs) dot(context, view.at(point), 2.6, "crumb");
+  for (const point of breadcrumbs) dot(context, view.at(point), 2.6, "breadcrumb");
   line(context, view, track, "track", 1.5);
 }
 

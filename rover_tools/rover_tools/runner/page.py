@@ -33,6 +33,7 @@ def start_page(run: Run, parameters_file: Path, open_page: bool) -> str:
     run.processes.start(DASHBOARD, command)
     address = f"http://{HOST}:{port}/"
     _wait_listening(run, port)
+    run.processes.make_optional(DASHBOARD)  # a mission must not end with its page
     note(f"watch it live: {address}")
     if open_page:
         webbrowser.open(address)

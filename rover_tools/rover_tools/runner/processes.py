@@ -35,6 +35,7 @@ class Processes:
         self._log_dir = log_dir
         self._environment = {**os.environ, **environment}
         self._children: list[_Child] = []
+        self._optional: set[str] = set()
         self.stop_seconds = STOP_SECONDS
         log_dir.mkdir(parents=True, exist_ok=True)
 
@@ -52,11 +53,15 @@ class Processes:
             )
         self._children.append(_Child(name, process, log))
 
+    def make_optional(self, name: str) -> None:
+        """The run goes on when the named process ends."""
+        self._optional.add(name)
+
     def check(self) -> None:
         """Raise ProcessDiedError, with the last lines of its log, when one has ended."""
         for child in self._children:
             code = child.process.poll()
-            if code is not None:
+            if code is not None and child.name not in self._optional:
                 raise ProcessDiedError(
                     f"{child.name} ended with exit code {code}; the end of {child.log}:\n"
                     + _tail(child.log)
