@@ -50,6 +50,7 @@ class PerceptionNode(Node):
         self._join = ExactTimeSynchronizer((topics.IMAGE, topics.ODOMETRY, topics.STATUS))
         self._stamp: int | None = None
         self._map_stamp: int | None = None
+        self._maps_due = False  # those that include the last frame
         self._navigation_map_stamp: int | None = None
         self._vision_stamp: int | None = None
         self._frames_at_last_check = 0
@@ -96,6 +97,7 @@ class PerceptionNode(Node):
         self._diagnostics.counts[FRAMES_INCOMPLETE] = self._join.dropped
         if parts is None:
             return
+        self._publish_due_maps()
         try:
             frame = conversions.camera_frame_of(
                 parts[topics.IMAGE], parts[topics.ODOMETRY], parts[topics.STATUS]
@@ -122,12 +124,21 @@ class PerceptionNode(Node):
         self._rock_polar.publish(conversions.polar_message_of(stamp, run, result.rock))
         self._scan.publish(conversions.scan_message_of(stamp, result.scan))
         self._stamp = stamp
-        if result.map_stamp == stamp:
-            self._publish_map(stamp)
+        self._maps_due = result.map_stamp == stamp
         if self._vision.get_subscription_count() and _due(
             self._vision_stamp, stamp, self._config.vision_period
         ):
             self._publish_vision(stamp)
+
+    def _publish_due_maps(self) -> None:
+        """Maps follow when the next frame has come: all have read the messages of theirs by then.
+
+        A navigation map is larger than a segment of Fast DDS's shared memory: published at once, it
+        overwrites the small messages before it, and their repair takes up to 3 s.
+        """
+        if self._maps_due and self._stamp is not None:
+            self._maps_due = False
+            self._publish_map(self._stamp)
 
     def _publish_map(self, stamp: int) -> None:
         self._map_stamp = stamp
@@ -156,6 +167,7 @@ class PerceptionNode(Node):
         self._frames_at_last_check = frame_count
         if not paused or self._stamp is None:
             return
+        self._maps_due = False
         if self._map_stamp != self._stamp:
             self._publish_map(self._stamp)
         self._publish_navigation_map(self._stamp)
