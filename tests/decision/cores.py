@@ -72,7 +72,7 @@ class CoreBench:
         if self.maps and shown.map_stamp == shown.stamp:
             self.core.give_map(shown.stamp, UNKNOWN)
             ordered = not decision.command.new_run and self.planner.gate.is_set()
-            if ordered and not self.lockstep:
+            if ordered:
                 assert self.planner._made.acquire(timeout=PATIENCE)
         self.time += after
         return decision
