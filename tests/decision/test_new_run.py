@@ -13,14 +13,9 @@ from maps import HALL, MIDDLE, UNKNOWN, straight_plan
 from rover_common.geometry import Pose
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.types import Decision, Request
-from rover_navigation.types import GoalKind
+from rover_navigation.types import GoalKind, PlanRequest
 
 LEFT = straight_plan(pose=Pose(MIDDLE.x, MIDDLE.y, np.pi / 2))
-
-
-def stamps_asked(bench: CoreBench) -> list[float]:
-    """[s] of the frames whose plans were begun."""
-    return [request.stamp * 1e-9 for request in bench.planner.requests]
 
 
 class TestPlansOfTheRunBefore:
@@ -60,13 +55,13 @@ class TestPlansOfTheRunBefore:
         driving.maps = False
         first = driving.time
         driving.step()
-        asked = len(driving.planner.requests)
         driving.core.give_map(old_stamp, HALL)
         assert driving.core.ready(nanoseconds(first + 1.0)) is not driving.lockstep
         driving.core.give_map(nanoseconds(first), UNKNOWN)
         assert driving.core.ready(nanoseconds(first + 1.0))
         driving.step_until(lambda decision: decision.command.throttle > 0, 2.0, map_age=0.05)
-        assert [request.grid for request in driving.planner.requests[asked:]] == [UNKNOWN]
+        requests = [made for made in driving.planner.requests if made.stamp > old_stamp]
+        assert [request.grid for request in requests] == [UNKNOWN]
 
     def test_a_map_of_the_new_run_may_come_before_its_first_frame(self, driving):
         run = driving.begin_run()
@@ -89,11 +84,8 @@ class TestMission:
         used.begin_run(), fresh.begin_run()
         for old, new in zip(third_of_a_mission(used), third_of_a_mission(fresh), strict=True):
             assert old == new
-        requests = [
-            bench.core.mission.plan_request(frame(bench.time))(UNKNOWN) for bench in (used, fresh)
-        ]
-        assert_same_request(*requests)
-        assert requests[0].home == (AWAY.x, AWAY.y)
+        assert_same_request(next_request(used), next_request(fresh))
+        assert next_request(used).home == (AWAY.x, AWAY.y)
 
     def test_the_number_of_the_mission_tells_it_from_the_one_before(self, bench):
         bench.steps(1.0)
@@ -144,7 +136,12 @@ def third_of_a_mission(bench: CoreBench) -> list[Decision]:
     return decisions
 
 
-def assert_same_request(one, other) -> None:
+def next_request(bench: CoreBench) -> PlanRequest:
+    """What a plan would be made of at the next frame."""
+    return bench.core.mission.plan_request(frame(bench.time))(UNKNOWN)
+
+
+def assert_same_request(one: PlanRequest, other: PlanRequest) -> None:
     for name in vars(one):
         a, b = getattr(one, name), getattr(other, name)
         if name == "coverage":
@@ -238,11 +235,10 @@ def test_goals_of_the_run_before_are_not_blacklisted(make_bench):
     bench = make_bench()
     bench.planner.plan = straight_plan(length=1.0)
     bench.steps(4.0)
-    assert len(bench.planner.requests[-1].blacklisted) > 0
-    assert bench.planner.requests[-1].last_goal.kind is GoalKind.FRONTIER
+    assert len(next_request(bench).blacklisted) > 0
+    assert next_request(bench).last_goal.kind is GoalKind.FRONTIER
     bench.begin_run()
     bench.step()
-    bench.step()
-    request = bench.planner.requests[-1]
+    request = next_request(bench)
     assert len(request.blacklisted) == len(request.retryable) == 0
     assert request.last_goal is None

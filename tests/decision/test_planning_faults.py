@@ -122,6 +122,18 @@ class TestStaleInputs:
         assert not any(map(holds, bench.steps(MAX_AGE + 1.0)))
         assert bench.core.mission.overlay().plan is None
 
+    def test_a_hold_on_the_path_home_does_not_wait_for_plans(self, make_bench):
+        bench = make_bench(lockstep=False)
+        bench.step()
+        bench.place = AWAY
+        bench.core.request(Request.RETURN_HOME)
+        bench.steps(0.5)
+        bench.planner.fails = True
+        bench.maps = False
+        bench.time += 2 * MAX_AGE
+        assert holds(bench.step())
+        assert heads_home(bench.step())
+
     def test_a_rock_is_driven_to_by_sight_without_plans(self, driving):
         near = (rock(MIDDLE.x + 2.0, MIDDLE.y),)
         assert driving.step(rocks=near).state is State.ROCK_APPROACH
@@ -155,11 +167,11 @@ class TestPlannerThatHangs:
         monkeypatch.setattr("rover_decision.core.PlanScheduler", patient)
         bench = make_bench()
         bench.step_until(drives, 2.0)
+        bench.planner.hangs = 1
         bench.planner.gate.clear()
         bench.step_until(holds, 1.0)
         assert bench.core.plan_failures == 1
         assert "no plan within 0.5 s" in bench.core.last_failure
-        bench.planner.gate.set()
         assert bench.step_until(drives, 2.0).state is State.FORWARD
         assert bench.core.plan_failures == 1
 

@@ -154,6 +154,19 @@ def test_after_a_long_pause_it_goes_on_as_before():
     assert states == {State.FORWARD}
 
 
+def test_the_path_home_leaves_no_breadcrumbs():
+    mission = exploring()
+    for step in range(20):
+        mission.tick(pose=Pose(MIDDLE.x + 0.3 * step, MIDDLE.y, 0.0))
+    trail = mission.mission.overlay().breadcrumbs
+    assert len(trail) == pytest.approx(10, abs=2)
+    mission.request(Request.RETURN_HOME)
+    for step in range(10):
+        mission.tick(pose=Pose(MIDDLE.x + 5.7, MIDDLE.y + 0.3 * step, 0.0))
+    assert mission.state is State.RETURN_HOME
+    assert np.array_equal(mission.mission.overlay().breadcrumbs, trail)
+
+
 def test_a_path_home_on_which_it_gets_stuck_again_is_left_for_the_next():
     mission = heading_home()
     far = Pose(MIDDLE.x + 5.0, MIDDLE.y, 0.0)

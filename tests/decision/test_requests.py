@@ -89,7 +89,7 @@ def test_on_a_requested_return_no_rock_is_approached():
     mission.tick(near_sample=True)
     mission.request(Request.RETURN_HOME)
     mission.tick(picking_up=True, pose=AWAY)
-    near = (rock(MIDDLE.x + 4.0, MIDDLE.y),)
+    near = (rock(AWAY.x + 3.0, MIDDLE.y),)
     states = {mission.tick(pose=AWAY, rocks=near, sample_count=2).state for _ in range(10)}
     assert State.ROCK_APPROACH not in states
     assert State.RETURN_HOME in states

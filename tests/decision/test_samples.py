@@ -66,6 +66,13 @@ def test_a_rock_out_of_reach_is_given_up_tried_again_and_then_left():
     assert approaches == MAX_TRIES
 
 
+def test_when_the_time_is_up_it_leaves_a_rock():
+    mission = exploring(rocks=AHEAD)
+    assert mission.tick(rocks=AHEAD).state is State.ROCK_APPROACH
+    mission.mission.limit_time(30.0)  # less than the path home and its reserve take
+    assert mission.tick(rocks=AHEAD).state is State.RETURN_HOME
+
+
 def test_beside_a_rock_it_may_tilt_further():
     """Samples stand on the bases of walls."""
     states = {}

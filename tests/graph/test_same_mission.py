@@ -7,10 +7,20 @@ from collections.abc import Mapping
 from typing import Any
 
 import pytest
+from rclpy.node import Node
+from rover_interfaces.msg import (
+    DriveCommand,
+    MissionState,
+    PolarArray,
+    RockTrackArray,
+    RoverStatus,
+)
 
 from rover_bridge.codec import encode_drive
 from rover_bridge.node import BridgeNode
+from rover_common import topics
 from rover_common.geometry import Pose
+from rover_common.ros import conversions, qos
 from rover_common.types import Command
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
@@ -44,7 +54,7 @@ def without_pictures(answer: Answer) -> Answer:
     return name, {key: value for key, value in data.items() if not key.startswith("inset")}
 
 
-def fly_in_process(world: World) -> tuple[list[Answer], list[Pose]]:
+def run_in_process(world: World) -> tuple[list[Answer], list[Pose]]:
     simulation = Simulation(world, 0, FRAME_STEPS)
     loop = Loop(simulation)
     answers: list[Answer] = []
@@ -63,52 +73,110 @@ def fly_in_process(world: World) -> tuple[list[Answer], list[Pose]]:
     return answers, poses
 
 
-def fly_in_graph(ros, world: World) -> tuple[list[Answer], list[Pose]]:
-    bridge = ros.add(BridgeNode, port=0, answer_deadline=10.0)
-    nodes = (bridge, ros.add(PerceptionNode), ros.add(DecisionNode, use_sim_time=True))
-    assert ros.spin_until(
-        lambda: all(peer() for node in nodes for peer in node._diagnostics._peers.values())
-    )
-    simulation = Simulation(world, 0, FRAME_STEPS)
-    answers: list[Answer] = []
-    poses: list[Pose] = []
+class Graph:
+    """The three nodes in lockstep, and a simulator at their socket."""
 
-    def drive() -> None:
-        client = UnityClient("127.0.0.1", bridge.port)
-        client.connect(timeout=5)
-        client.send_telemetry(simulation.telemetry())
-        waiting = 1
-        while len(poses) < FRAMES:
-            event = client.receive(10.0)
-            if event is None:
-                break
-            if event.name == OPEN:
-                client.send_telemetry(simulation.telemetry())
-                waiting += 1
-                continue
-            answers.append((event.name, event.data))
-            simulation.handle(event.name, event.data)
-            waiting -= 1
-            if waiting == 0:
-                simulation.advance()
-                poses.append(simulation.pose)
+    def __init__(self, ros: Any) -> None:
+        self._ros = ros
+        self._bridge = ros.add(BridgeNode, port=0, answer_deadline=10.0)
+        nodes = (self._bridge, ros.add(PerceptionNode), ros.add(DecisionNode, use_sim_time=True))
+        assert ros.spin_until(
+            lambda: all(peer() for node in nodes for peer in node._diagnostics._peers.values())
+        )
+
+    def run(self, *lengths: int, world: World) -> list[tuple[list[Answer], list[Pose]]]:
+        """Answers and poses of scenes of so many frames; the simulator resets between them."""
+        scenes: list[tuple[list[Answer], list[Pose]]] = []
+
+        def drive() -> None:
+            client = UnityClient("127.0.0.1", self._bridge.port)
+            client.connect(timeout=5)
+            for frames in lengths:
+                simulation = Simulation(world, 0, FRAME_STEPS)
+                if scenes:  # as the simulator sends them when it connects, to compare the scenes
+                    client.send_telemetry(simulation.telemetry())
+                scenes.append(([], []))
+                drive_scene(client, simulation, frames, 2 if scenes[1:] else 1, *scenes[-1])
+            client.close()
+
+        thread = threading.Thread(target=drive)
+        thread.start()
+        assert self._ros.spin_until(lambda: not thread.is_alive(), timeout=120)
+        thread.join()
+        return scenes
+
+
+def drive_scene(
+    client: UnityClient,
+    simulation: Simulation,
+    frames: int,
+    waiting: int,
+    answers: list[Answer],
+    poses: list[Pose],
+) -> None:
+    """From the scene's first telemetry on, each frame when all before are answered.
+
+    waiting: for so many answers, the first telemetry's included.
+    """
+    client.send_telemetry(simulation.telemetry())
+    while len(poses) < frames:
+        event = client.receive(10.0)
+        if event is None:
+            return
+        if event.name == OPEN:
+            client.send_telemetry(simulation.telemetry())
+            waiting += 1
+            continue
+        answers.append((event.name, event.data))
+        simulation.handle(event.name, event.data)
+        waiting -= 1
+        if waiting == 0:
+            simulation.advance()
+            poses.append(simulation.pose)
+            if len(poses) < frames:
                 client.send_telemetry(simulation.telemetry())
                 waiting = 1
-        client.close()
-
-    thread = threading.Thread(target=drive)
-    thread.start()
-    assert ros.spin_until(lambda: not thread.is_alive(), timeout=120)
-    thread.join()
-    return answers, poses
 
 
-def test_graph_and_loop_fly_the_same_mission(ros, world):
-    answers, poses = fly_in_process(world)
-    graph_answers, graph_poses = fly_in_graph(ros, world)
+def test_graph_and_loop_run_the_same_mission(ros, world):
+    answers, poses = run_in_process(world)
+    ((graph_answers, graph_poses),) = Graph(ros).run(FRAMES, world=world)
     assert len(graph_poses) == FRAMES
     pairs = zip(map(without_pictures, answers), map(without_pictures, graph_answers), strict=True)
     differing = [(index, *pair) for index, pair in enumerate(pairs) if pair[0] != pair[1]]
     assert differing[:3] == []
     assert graph_poses == poses
     assert ("pickup", {}) in answers
+
+
+RUN_OF = {  # topics that tell the run, and where
+    topics.STATUS: (RoverStatus, qos.FRAME),
+    topics.NAV_POLAR: (PolarArray, qos.FRAME),
+    topics.ROCK_POLAR: (PolarArray, qos.FRAME),
+    topics.ROCKS: (RockTrackArray, qos.FRAME),
+    topics.COMMAND: (DriveCommand, qos.FRAME),
+    topics.MISSION_STATE: (MissionState, qos.LATCHED),
+}
+
+
+def test_a_reset_of_the_scene_begins_run_2_in_every_node(ros, world):
+    graph = Graph(ros)
+    watcher = ros.add(lambda **kwargs: Node("watcher", **kwargs))
+    messages: dict[str, list[Any]] = {topic: [] for topic in RUN_OF}
+    for topic, (kind, profile) in RUN_OF.items():
+        watcher.create_subscription(kind, topic, messages[topic].append, profile)
+        assert ros.spin_until(lambda topic=topic: watcher.count_publishers(topic) > 0)
+    (_, first), (answers, second) = graph.run(60, 40, world=world)
+    assert ros.spin_until(lambda: messages[topics.COMMAND][-1].run == 2)
+    for topic, received in messages.items():
+        assert ros.spin_until(lambda received=received: received[-1].run == 2), topic
+        runs = [message.run for message in received]
+        assert runs == sorted(runs), topic
+        assert set(runs) == {1, 2}
+        stamps = [conversions.stamp_of(message.header.stamp) for message in received]
+        assert stamps == sorted(stamps), topic
+    reports = [report for report in messages[topics.MISSION_STATE] if report.run == 2]
+    assert (reports[0].elapsed, reports[0].distance) == (pytest.approx(0.0, abs=0.1), 0.0)
+    assert (len(first), len(answers)) == (60, 41)
+    assert second == first[:40]  # it drives as it did
+    assert second[-1] != second[0]
