@@ -34,19 +34,15 @@ class HandPlanner:
         self.gate.set()
         self.hangs = math.inf  # so often, while it is closed
         self.requests: list[PlanRequest] = []
-        self._made = threading.Semaphore(0)
 
     def __call__(self, request: PlanRequest) -> Plan:
         self.requests.append(request)
         if self.hangs > 0 and not self.gate.is_set():
             self.hangs -= 1
             self.gate.wait()
-        try:
-            if self.fails:
-                raise ZeroDivisionError("no such thing")
-            return replace(self.plan, stamp=request.stamp)
-        finally:
-            self._made.release()
+        if self.fails:
+            raise ZeroDivisionError("no such thing")
+        return replace(self.plan, stamp=request.stamp)
 
 
 def to_and_fro(place: Pose, time: float) -> Pose:
@@ -74,11 +70,14 @@ class CoreBench:
         decision = self.core.step(shown)
         if self.maps and shown.map_stamp == shown.stamp:
             self.core.give_map(shown.stamp, UNKNOWN)
-            ordered = not decision.command.new_run and self.planner.gate.is_set()
-            if ordered and not self.lockstep:  # which waits by itself
-                assert self.planner._made.acquire(timeout=PATIENCE)
+            self.settle()
         self.time += after
         return decision
+
+    def settle(self) -> None:
+        """Wait until all plans are made that can be; in lockstep the core waits by itself."""
+        if not self.lockstep and self.planner.gate.is_set():
+            self.core._plans._pool.submit(int).result(PATIENCE)
 
     def steps(self, seconds: float, **what: Any) -> list[Decision]:
         return [self.step(**what) for _ in range(round(seconds / STEP))]

@@ -58,6 +58,7 @@ class TestPlansOfTheRunBefore:
         driving.core.give_map(old_stamp, HALL)
         assert driving.core.ready(nanoseconds(first + 1.0)) is not driving.lockstep
         driving.core.give_map(nanoseconds(first), UNKNOWN)
+        driving.settle()
         assert driving.core.ready(nanoseconds(first + 1.0))
         driving.step_until(lambda decision: decision.command.throttle > 0, 2.0, map_age=0.05)
         requests = [made for made in driving.planner.requests if made.stamp > old_stamp]
@@ -68,6 +69,7 @@ class TestPlansOfTheRunBefore:
         driving.core.give_map(run.start, HALL)
         driving.maps = False
         driving.step()
+        driving.settle()
         assert driving.core.ready(run.start + nanoseconds(1.0))
         driving.step_until(lambda decision: decision.command.throttle > 0, 2.0, map_age=0.05)
         assert driving.planner.requests[-1].grid is HALL
