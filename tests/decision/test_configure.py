@@ -68,13 +68,13 @@ def test_what_the_mission_remembers_stays():
     mission.ticks(2.0)
     before = mission.tick().progress
     parts = mission.mission._parts
-    crumbs = len(parts.breadcrumbs.points)
+    dropped = len(parts.breadcrumbs.points)
     mission.mission.configure(WALL_FOLLOWER)
     after = mission.tick().progress
     assert after.elapsed > before.elapsed
     assert after.recoveries == before.recoveries
     assert mission.mission._parts is parts
-    assert len(parts.breadcrumbs.points) >= crumbs > 0
+    assert len(parts.breadcrumbs.points) >= dropped > 0
 
 
 def test_a_new_mission_begins_with_the_parameters_and_planner_in_force(make_bench):
