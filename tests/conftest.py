@@ -20,6 +20,8 @@ os.environ.setdefault(
 # What a shell runs in the background is deaf to Ctrl-C; the programs under test inherit from here.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:  # the same, below nohup
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 import pytest  # noqa: E402
 import rclpy  # noqa: E402
