@@ -64,6 +64,11 @@ def generate_launch_description() -> LaunchDescription:
         )
         for package, executable in NODES.items()
     ]
+    return LaunchDescription([*arguments, *nodes, *views(share)])
+
+
+def views(share: FindPackageShare) -> list[Node]:
+    """What shows the mission, each on request."""
     dashboard = Node(
         package="rover_dashboard",
         executable="dashboard_node",
@@ -79,4 +84,4 @@ def generate_launch_description() -> LaunchDescription:
         arguments=["-d", PathJoinSubstitution([share, "rviz", "rover.rviz"])],
         condition=IfCondition(LaunchConfiguration("use_rviz")),
     )
-    return LaunchDescription([*arguments, *nodes, dashboard, rviz])
+    return [dashboard, rviz]
