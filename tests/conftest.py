@@ -14,9 +14,6 @@ ROOT = Path(__file__).resolve().parent.parent
 
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"  # read when a message module is imported
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-os.environ.setdefault(
-    "FASTRTPS_DEFAULT_PROFILES_FILE", str(ROOT / "rover_bringup" / "config" / "fastdds.xml")
-)
 # What a shell runs in the background is deaf to Ctrl-C; the programs under test inherit from here.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -29,6 +26,8 @@ from rclpy.context import Context  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 from rclpy.node import Node  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
+
+from rover_common.ros.fast_dds import use_profiles  # noqa: E402
 
 WAIT = 10.0  # [s] what a test waits at most for a thing to happen
 
@@ -51,6 +50,7 @@ class Ros:
     """Nodes in one context of their own, spun in the test's thread until a predicate holds."""
 
     def __init__(self) -> None:
+        use_profiles()
         self.context = Context()
         rclpy.init(context=self.context, args=[], domain_id=domain_id())
         self.executor = SingleThreadedExecutor(context=self.context)

@@ -80,12 +80,3 @@ ROVER = VehicleModel(
     body_half_width=0.44,  # derived: wheels at 0.396, and half their width
     camera_blind_radius=1.2,  # chosen: the ground ahead is seen from 0.76 m on, to the sides later
 )
-
-MAX_STEERING = ROVER.max_steering
-MAX_SPEED = ROVER.max_speed
-WHEELBASE = ROVER.wheelbase
-TURN_IN_PLACE_BELOW = ROVER.turn_in_place_below
-TURN_IN_PLACE_RATE = ROVER.turn_in_place_rate
-PICKUP_SECONDS = ROVER.pickup_seconds
-ARM_FORWARD = ROVER.arm_forward
-ARM_RADIUS = ROVER.arm_radius

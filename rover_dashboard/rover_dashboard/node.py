@@ -32,6 +32,7 @@ from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
 from rover_common.ros.conversions import command_of, stamp_of, vehicle_state_of
+from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor
 from rover_common.ros.sync import ExactTimeSynchronizer
@@ -212,6 +213,7 @@ async def _serve_until_signal(node: DashboardNode, executor: Executor) -> None:
 
 def main() -> None:
     """Entry point of `ros2 run rover_dashboard dashboard_node`."""
+    use_profiles()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = DashboardNode()
     try:

@@ -6,10 +6,9 @@ import re
 from dataclasses import fields
 
 import pytest
-from rclpy.qos import QoSProfile
+from node_endpoints import endpoints, listed
 from readme_tables import ROOT, column, table
 
-from rover_common.ros import qos
 from rover_dashboard.config import DashboardConfig
 from rover_dashboard.feed import SLOTS
 from rover_dashboard.history import LOGS
@@ -18,25 +17,6 @@ from rover_decision.types import Request
 
 README = ROOT / "rover_dashboard" / "README.md"
 PACKAGE = ROOT / "rover_dashboard" / "rover_dashboard"
-OF_EVERY_NODE = {"/rosout", "/parameter_events"}
-PROFILES = {name: value for name, value in vars(qos).items() if isinstance(value, QoSProfile)}
-
-
-def endpoints(of_node) -> set[tuple[str, str, str]]:
-    """(topic, type, profile), but those of every node."""
-    return {
-        (
-            endpoint.topic_name.lstrip("/"),
-            f"{endpoint.msg_type.__module__.split('.')[0]}/{endpoint.msg_type.__name__}",
-            next(name for name, value in PROFILES.items() if value is endpoint.qos_profile),
-        )
-        for endpoint in of_node
-        if endpoint.topic_name not in OF_EVERY_NODE
-    }
-
-
-def listed(heading: str) -> set[tuple[str, str, str]]:
-    return {(row["topic"], row["type"], row["QoS"]) for row in table(README, heading)}
 
 
 @pytest.fixture
@@ -45,9 +25,9 @@ def node(ros) -> DashboardNode:
 
 
 def test_the_topics_are_the_nodes(node):
-    assert listed("Subscribes") == endpoints(node.subscriptions)
+    assert listed(README, "Subscribes") == endpoints(node.subscriptions)
     node.set_watched(True)
-    both = listed("Subscribes") | listed("Subscribes while watched")
+    both = listed(README, "Subscribes") | listed(README, "Subscribes while watched")
     assert both == endpoints(node.subscriptions)
     assert endpoints(node.publishers) == set()
 

@@ -10,7 +10,7 @@ from frames_by_hand import CONFIG, PLAN, WALL_FOLLOWER, DrivenMission, exploring
 from maps import MIDDLE, straight_plan
 
 from rover_common.geometry import Pose
-from rover_common.vehicle import MAX_STEERING
+from rover_common.vehicle import ROVER
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.completion import PLANS_WITHOUT_GOAL
 from rover_decision.missions.sample_return.config import DecisionConfig
@@ -34,7 +34,7 @@ def test_a_path_behind_is_turned_to_in_place_without_the_brake():
     assert mission.tick(speed=1.0, plan=behind).command.brake > 0
     standing = mission.tick(plan=behind)
     assert standing.command.brake == standing.command.throttle == 0
-    assert abs(standing.command.steering_angle) == pytest.approx(MAX_STEERING)
+    assert abs(standing.command.steering_angle) == pytest.approx(ROVER.max_steering)
 
 
 def test_a_wall_ahead_stops_a_wall_follower_and_then_turns_it():
@@ -44,7 +44,7 @@ def test_a_wall_ahead_stops_a_wall_follower_and_then_turns_it():
     assert fast.command.brake > 0
     slow = mission.tick(ahead=1.0)
     assert slow.command.brake == slow.command.throttle == 0
-    assert slow.command.steering_angle == pytest.approx(MAX_STEERING)
+    assert slow.command.steering_angle == pytest.approx(ROVER.max_steering)
     assert mission.tick().state is State.FORWARD
 
 
@@ -53,7 +53,7 @@ def test_an_obstacle_on_the_path_stops_it_until_another_path_is_free():
     assert mission.tick(ahead=1.0, speed=1.5).state is State.STOP
     aside = straight_plan(pose=Pose(MIDDLE.x, MIDDLE.y, 1.0))
     turning = mission.tick(ahead=1.0, plan=aside)
-    assert turning.command.steering_angle == pytest.approx(MAX_STEERING)
+    assert turning.command.steering_angle == pytest.approx(ROVER.max_steering)
     mission.wait(0.8)
     turned = Pose(MIDDLE.x, MIDDLE.y, 1.0)
     assert mission.tick(pose=turned, plan=aside).state is State.FORWARD

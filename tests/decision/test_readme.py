@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import fields
 
 import pytest
-from rclpy.qos import QoSProfile
+from node_endpoints import endpoints, listed
 from readme_tables import ROOT, column, table
 
-from rover_common.ros import qos
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.node import DecisionNode
@@ -18,29 +17,13 @@ from rover_decision.types import Request
 README = ROOT / "rover_decision" / "README.md"
 NAVIGATION = ROOT / "rover_navigation" / "README.md"
 DOCUMENT = ROOT / "docs" / "decision.md"
-OF_EVERY_NODE = {"/rosout", "/parameter_events", "/clock"}
-OF_THE_ACTION = "/decision_node/run_mission/"
-PROFILES = {name: value for name, value in vars(qos).items() if isinstance(value, QoSProfile)}
-
-
-def endpoints(of_node) -> set[tuple[str, str, str]]:
-    """(topic, type, profile) of a node's publishers or subscriptions, but those of every node."""
-    found = set()
-    for endpoint in of_node:
-        name, kind = endpoint.topic_name, endpoint.msg_type
-        if name in OF_EVERY_NODE or name.startswith(OF_THE_ACTION):
-            continue
-        profile = next(n for n, value in PROFILES.items() if value is endpoint.qos_profile)
-        found.add((name, f"{kind.__module__.split('.')[0]}/{kind.__name__}", profile))
-    return found
 
 
 @pytest.mark.parametrize("heading", ["Publishes", "Subscribes"])
 def test_the_topics_are_the_nodes(ros, heading):
     node = ros.add(DecisionNode)
     found = endpoints(node.publishers if heading == "Publishes" else node.subscriptions)
-    rows = table(README, heading)
-    assert {("/" + row["topic"].lstrip("/"), row["type"], row["QoS"]) for row in rows} == found
+    assert listed(README, heading) == found
 
 
 def test_the_services_are_the_nodes(ros):

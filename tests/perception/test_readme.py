@@ -1,16 +1,13 @@
 """The README is the package's contract: its tables say what the node does."""
 
-from collections.abc import Iterable
 from dataclasses import fields
-from typing import Any
 
 import pytest
-from rclpy.qos import QoSProfile
+from node_endpoints import endpoints, listed
 from readme_tables import ROOT, column, table
 from scene import EXACT, draw
 
 from rover_common.geometry import Pose
-from rover_common.ros import qos
 from rover_common.types import CameraFrame
 from rover_perception import config, node
 from rover_perception.config import PerceptionConfig
@@ -20,29 +17,13 @@ from rover_perception.perception import Perception
 
 PACKAGE = ROOT / "rover_perception" / "rover_perception"
 README = PACKAGE.parent / "README.md"
-PROFILES = {name: value for name, value in vars(qos).items() if isinstance(value, QoSProfile)}
-OF_EVERY_NODE = {"/rosout", "/parameter_events"}
-
-
-def endpoints(of_node: Iterable[Any]) -> set[tuple[str, str, str]]:
-    """Topic, type and name of the profile; rclpy's own publishers are left out."""
-    found = set()
-    for endpoint in of_node:
-        if endpoint.topic_name not in OF_EVERY_NODE:
-            kind = endpoint.msg_type
-            (profile,) = [name for name, value in PROFILES.items() if value is endpoint.qos_profile]
-            package = kind.__module__.split(".")[0]
-            found.add((endpoint.topic_name, f"{package}/{kind.__name__}", profile))
-    return found
 
 
 @pytest.mark.parametrize("heading", ["Publishes", "Subscribes"])
 def test_the_topics_are_those_of_the_node(ros, heading):
     own = ros.add(PerceptionNode)
     of_node = own.publishers if heading == "Publishes" else own.subscriptions
-    rows = table(README, heading)
-    listed = {("/" + row["topic"].lstrip("/"), row["type"], row["QoS"]) for row in rows}
-    assert listed == endpoints(of_node)
+    assert listed(README, heading) == endpoints(of_node)
 
 
 def test_the_parameters_are_those_of_the_configuration():

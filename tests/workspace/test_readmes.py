@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable
 from dataclasses import fields
 from enum import IntEnum
 from pathlib import Path
@@ -12,8 +11,8 @@ from typing import Any
 
 import pytest
 from interface_files import interface_files, members_of
+from node_endpoints import PROFILES, endpoints, listed
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
 from readme_tables import ROOT, column, table
 
 from rover_bridge import errors, pending_requests, run_tracker
@@ -21,7 +20,6 @@ from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.node import BridgeNode
 from rover_common import topics
-from rover_common.ros import qos
 from rover_common.vehicle import ROVER
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
@@ -31,29 +29,7 @@ COMMON = ROOT / "rover_common" / "README.md"
 BRINGUP = ROOT / "rover_bringup" / "README.md"
 INTERFACES = ROOT / "rover_interfaces" / "README.md"
 LAUNCH = ROOT / "rover_bringup" / "launch" / "mission.launch.py"
-OF_EVERY_NODE = {"/rosout", "/parameter_events"}
-PROFILES = {name: value for name, value in vars(qos).items() if isinstance(value, QoSProfile)}
 NODES = {"bridge": BridgeNode, "perception": PerceptionNode, "decision": DecisionNode}
-
-
-def type_of(endpoint: Any) -> str:
-    """As `package/Name`."""
-    kind = endpoint.msg_type
-    return f"{kind.__module__.split('.')[0]}/{kind.__name__}"
-
-
-def profile_of(endpoint: Any) -> str:
-    """The name of an endpoint's QoS profile."""
-    return next(name for name, value in PROFILES.items() if value is endpoint.qos_profile)
-
-
-def endpoints(of_node: Iterable[Any]) -> set[tuple[str, str, str]]:
-    """(topic, type, profile) of a node's publishers or subscriptions; the namespace is `/`."""
-    return {
-        (endpoint.topic_name, type_of(endpoint), profile_of(endpoint))
-        for endpoint in of_node
-        if endpoint.topic_name not in OF_EVERY_NODE
-    }
 
 
 def words(policy: IntEnum) -> str:
@@ -61,16 +37,11 @@ def words(policy: IntEnum) -> str:
     return policy.name.lower().replace("_", " ")
 
 
-def absolute(topic: str) -> str:
-    return topic if topic.startswith("/") else f"/{topic}"
-
-
 @pytest.mark.parametrize("heading", ["Publishes", "Subscribes"])
 def test_the_bridges_topics_are_the_nodes(ros, heading):
     node = ros.add(BridgeNode, port=0)
     found = endpoints(node.publishers if heading == "Publishes" else node.subscriptions)
-    rows = table(BRIDGE, heading)
-    assert {(absolute(row["topic"]), row["type"], row["QoS"]) for row in rows} == found
+    assert listed(BRIDGE, heading) == found
 
 
 def test_the_bridges_parameters_are_those_of_its_configuration():
@@ -84,9 +55,9 @@ def test_the_bridges_parameters_are_those_of_its_configuration():
 
 def test_the_bridges_counters_are_those_counted():
     defects = {kind.counter for kind in errors.TelemetryError.__subclasses__()}
-    listed = column(BRIDGE, "Counters", "counter")
-    assert len(listed) == len(set(listed))
-    assert set(listed) == {counter.value for counter in Counter} | defects
+    rows = column(BRIDGE, "Counters", "counter")
+    assert len(rows) == len(set(rows))
+    assert set(rows) == {counter.value for counter in Counter} | defects
 
 
 def test_the_bridges_flow_names_all_its_modules():
@@ -122,13 +93,14 @@ def test_the_topics_are_those_that_the_nodes_publish(ros):
     assert {row["constant"]: row["topic"] for row in rows} == names
     for publisher, factory in NODES.items():
         node: Node = ros.add(factory, **({"port": 0} if publisher == "bridge" else {}))
-        listed = {
-            (absolute(row["topic"]), row["type"], row["QoS"])
+        of_readme = {
+            (row["topic"].lstrip("/"), row["type"], row["QoS"])
             for row in rows
             if row["publisher"] == publisher
         }
-        of_node = {e for e in endpoints(node.publishers) if e[0].lstrip("/") in names.values()}
-        assert listed == of_node
+        shared = {name.lstrip("/") for name in names.values()}
+        of_node = {endpoint for endpoint in endpoints(node.publishers) if endpoint[0] in shared}
+        assert of_readme == of_node
 
 
 def launch_constant(name: str) -> Any:
@@ -171,8 +143,8 @@ def test_the_launch_file_starts_a_node_again_that_ends():
 def test_the_bringup_files_are_all_listed():
     folder = BRINGUP.parent
     files = [path for name in ("launch", "config", "rviz") for path in (folder / name).iterdir()]
-    listed = column(BRINGUP, "Files", "file")
-    assert set(listed) == {str(path.relative_to(folder)) for path in files if path.is_file()}
+    names = column(BRINGUP, "Files", "file")
+    assert set(names) == {str(path.relative_to(folder)) for path in files if path.is_file()}
 
 
 @pytest.mark.parametrize("path", interface_files(), ids=lambda path: path.name)

@@ -10,6 +10,8 @@ from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 
+from rover_common.ros.fast_dds import use_profiles
+
 try:  # handles messages faster, but knows no guard conditions; not in every release of Jazzy
     from rclpy.experimental import EventsExecutor
 except ImportError:
@@ -28,6 +30,7 @@ def run_node(
     # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
     # raised at an arbitrary line.
     signal.signal(signal.SIGINT, lambda *_: None)
+    use_profiles()
     rclpy.init(args=args)
     node = None
     try:

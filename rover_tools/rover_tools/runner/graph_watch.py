@@ -18,6 +18,7 @@ from rover_interfaces.msg import MissionState, RockTrackArray
 from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
+from rover_common.ros.fast_dds import use_profiles
 from rover_common.types import GridMap, RockTrack
 
 
@@ -29,6 +30,7 @@ class GraphWatch:
     """A node in a thread of its own; what it holds may be read from any thread."""
 
     def __init__(self, domain_id: int) -> None:
+        use_profiles()
         self.context = Context()
         rclpy.init(context=self.context, args=[], domain_id=domain_id)
         self._node = Node("watch", context=self.context, enable_rosout=False)
