@@ -47,6 +47,7 @@ def decode_telemetry(wire: object) -> Telemetry:
     if not isinstance(wire, Mapping):
         raise NotAnObjectError(f"telemetry is {type(wire).__name__}, expected an object")
     count = int(_bounded(wire, "sample_count", 0, COUNT_LIMIT))
+    jpeg = _jpeg(wire)
     return Telemetry(
         pose=_pose(wire),
         speed=_bounded(wire, "speed", -SPEED_LIMIT, SPEED_LIMIT),
@@ -57,19 +58,14 @@ def decode_telemetry(wire: object) -> Telemetry:
         picking_up=_flag(wire, "picking_up"),
         sample_count=count,
         samples=_samples(wire, count),
-        image=decode_image(_value(wire, "image")),
+        image=decode_jpeg(jpeg),
+        jpeg=jpeg,
         sim_time=_bounded(wire, "sim_time", 0.0, TIME_LIMIT) if "sim_time" in wire else None,
     )
 
 
-def decode_image(text: object) -> NDArray[np.uint8]:
-    """An image (height, width, 3) RGB of the camera's size from a base64 JPEG file."""
-    if not isinstance(text, str):
-        raise Base64Error(f"image is {type(text).__name__}, expected a string")
-    try:
-        data = base64.b64decode(text, validate=True)
-    except (binascii.Error, ValueError) as error:
-        raise Base64Error(f"image: {error}") from None
+def decode_jpeg(data: bytes) -> NDArray[np.uint8]:
+    """An image (height, width, 3) RGB of the camera's size; raises JpegError or ImageSizeError."""
     # The decoder fills the rest of a truncated file with grey instead of refusing it.
     if not (data.startswith(JPEG_START) and data.endswith(JPEG_END)):
         raise JpegError("image is not a whole JPEG file")
@@ -124,6 +120,16 @@ def _samples(wire: Wire, count: int) -> NDArray[np.float64]:
     x = parse_numbers(_value(wire, "samples_x"), count)
     y = parse_numbers(_value(wire, "samples_y"), count)
     return np.array([x, y], np.float64).T.reshape(-1, 2)
+
+
+def _jpeg(wire: Wire) -> bytes:
+    text = _value(wire, "image")
+    if not isinstance(text, str):
+        raise Base64Error(f"image is {type(text).__name__}, expected a string")
+    try:
+        return base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError) as error:
+        raise Base64Error(f"image: {error}") from None
 
 
 def _value(wire: Wire, key: str) -> Any:

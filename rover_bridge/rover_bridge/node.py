@@ -1,8 +1,9 @@
 """The bridge node: a simulator's telemetry to topics, decisions back to the simulator.
 
-Publishes camera/image_raw, camera/camera_info, odom, rover_status, bridge_state (latched), /tf,
-/tf_static (latched), /clock (when the telemetry carries sim_time) and /diagnostics. Subscribes
-cmd_drive. Parameters: BridgeConfig. Counters: counters.Counter and errors.
+Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
+odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
+carries sim_time) and /diagnostics. Subscribes cmd_drive. Parameters: BridgeConfig. Counters:
+counters.Counter and errors.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock as ClockMsg
 from rover_interfaces.msg import DriveCommand, RoverStatus
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
@@ -38,7 +39,13 @@ from rover_bridge.server import (
 )
 from rover_common import frames, topics
 from rover_common.ros import qos
-from rover_common.ros.conversions import NANOSECONDS, command_of, image_message_of, odometry_of
+from rover_common.ros.conversions import (
+    NANOSECONDS,
+    command_of,
+    image_message_of,
+    jpeg_message_of,
+    odometry_of,
+)
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
@@ -81,6 +88,7 @@ class BridgeNode(Node):
     def _make_endpoints(self) -> None:
         publish = self.create_publisher
         self._image = publish(Image, topics.IMAGE, qos.FRAME)
+        self._compressed = publish(CompressedImage, topics.COMPRESSED_IMAGE, qos.FRAME)
         self._odometry = publish(Odometry, topics.ODOMETRY, qos.FRAME)
         self._status = publish(RoverStatus, topics.STATUS, qos.FRAME)
         self._camera_info = publish(CameraInfo, topics.CAMERA_INFO, qos.FRAME)
@@ -168,6 +176,8 @@ class BridgeNode(Node):
             self._clock_publisher.publish(conversions.clock_of(stamp))
         self._tf.publish(conversions.body_transform_of(stamp, telemetry.pose))
         self._camera_info.publish(conversions.camera_info_of(stamp))
+        if self._compressed.get_subscription_count() > 0:
+            self._compressed.publish(jpeg_message_of(image.header, telemetry.jpeg))
 
     def _on_command(self, message: DriveCommand) -> None:
         stamp, command = command_of(message)

@@ -1,7 +1,7 @@
-"""The three nodes of the mission, its live page, and RViz on request.
+"""The three nodes of the mission, its live page, and its recording and RViz on request.
 
 ros2 launch rover_bringup mission.launch.py [params_file:=FILE] [use_sim_time:=true]
-    [namespace:=NAME] [log_level:=info] [dashboard:=false]
+    [namespace:=NAME] [log_level:=info] [dashboard:=false] [record:=true]
     [use_rviz:=true] [host:=127.0.0.1] [port:=4567]
 
 A node that ends is started again after RESPAWN_DELAY; Ctrl-C ends all of them.
@@ -21,6 +21,7 @@ ARGUMENTS = {
     "namespace": ("", "namespace of the nodes and their topics"),
     "log_level": ("info", "debug, info, warn or error"),
     "dashboard": ("true", "serve the live page"),
+    "record": ("false", "record all topics"),
     "use_rviz": ("false", "start RViz with the rover's view"),
     "host": ("127.0.0.1", "address that the bridge listens on"),
     "port": ("4567", "TCP port that the bridge listens on"),
@@ -64,24 +65,30 @@ def generate_launch_description() -> LaunchDescription:
         )
         for package, executable in NODES.items()
     ]
-    return LaunchDescription([*arguments, *nodes, *views(share)])
+    return LaunchDescription([*arguments, *nodes, *optional_nodes(share)])
 
 
-def views(share: FindPackageShare) -> list[Node]:
-    """What shows the mission, each on request."""
-    dashboard = Node(
-        package="rover_dashboard",
-        executable="dashboard_node",
-        name="dashboard_node",
+def optional_node(argument: str, package: str, executable: str) -> Node:
+    """A node beside the mission, if the launch argument is true."""
+    return Node(
+        package=package,
+        executable=executable,
+        name=executable,
         namespace=LaunchConfiguration("namespace"),
         output="screen",
         parameters=[LaunchConfiguration("params_file")],
-        condition=IfCondition(LaunchConfiguration("dashboard")),
+        condition=IfCondition(LaunchConfiguration(argument)),
     )
+
+
+def optional_nodes(share: FindPackageShare) -> list[Node]:
+    """What shows and records the mission, each on request."""
+    dashboard = optional_node("dashboard", "rover_dashboard", "dashboard_node")
+    recorder = optional_node("record", "rover_recorder", "recorder_node")
     rviz = Node(
         package="rviz2",
         executable="rviz2",
         arguments=["-d", PathJoinSubstitution([share, "rviz", "rover.rviz"])],
         condition=IfCondition(LaunchConfiguration("use_rviz")),
     )
-    return [dashboard, rviz]
+    return [dashboard, recorder, rviz]

@@ -1,6 +1,7 @@
 """Names of the topics, relative to the nodes' namespace."""
 
 IMAGE = "camera/image_raw"  # sensor_msgs/Image, rgb8
+COMPRESSED_IMAGE = "camera/image_raw/compressed"  # sensor_msgs/CompressedImage, JPEG
 CAMERA_INFO = "camera/camera_info"  # sensor_msgs/CameraInfo
 ODOMETRY = "odom"  # nav_msgs/Odometry
 STATUS = "rover_status"  # rover_interfaces/RoverStatus

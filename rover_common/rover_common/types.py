@@ -47,6 +47,7 @@ class Telemetry:
     sample_count: int  # not yet collected
     samples: NDArray[np.float64]  # (n, 2) [m] map frame, not yet collected
     image: NDArray[np.uint8]  # (height, width, 3) RGB
+    jpeg: bytes  # the file that the image was decoded from
     sim_time: float | None  # [s], None when the simulator does not send it
 
 

@@ -29,6 +29,7 @@ def telemetry(
         picking_up=False,
         sample_count=samples,
         samples=np.zeros((samples, 2)),
+        jpeg=b"",
         image=np.zeros((1, 1, 3), np.uint8),
         sim_time=sim_time,
     )

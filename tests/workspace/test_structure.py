@@ -18,6 +18,7 @@ from rover_bridge.config import BridgeConfig
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
+from rover_recorder.config import RecorderConfig
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = sorted(path.parent.name for path in ROOT.glob("rover_*/package.xml"))
@@ -29,6 +30,7 @@ CONFIGS = {
     "perception_node": PerceptionConfig,
     "decision_node": DecisionConfig,
     "dashboard_node": DashboardConfig,
+    "recorder_node": RecorderConfig,
 }
 MESSAGE_PACKAGES = {
     "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav_msgs",
@@ -57,6 +59,8 @@ ROSDEP_KEYS = {
     "embreex": "python3-embreex-pip",
     "statemachine": "python3-python-statemachine-pip",
     "aiohttp": "python3-aiohttp",
+    "mcap": "python3-mcap-pip",
+    "zstandard": "python3-zstandard",
 }
 WITH_ROSDEP_KEY = set(ROSDEP_KEYS) | MESSAGE_PACKAGES | {"rclpy", "ament_index_python"}
 

@@ -14,7 +14,7 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from rover_interfaces.msg import DriveCommand, RockTrackArray, RoverStatus
 from rover_interfaces.msg import PolarArray as PolarArrayMsg
 from rover_interfaces.msg import RockTrack as RockTrackMsg
-from sensor_msgs.msg import Image, LaserScan
+from sensor_msgs.msg import CompressedImage, Image, LaserScan
 from std_msgs.msg import Header
 
 from rover_common import frames
@@ -33,6 +33,7 @@ from rover_common.types import (
 )
 
 NANOSECONDS = 1_000_000_000
+JPEG_FORMAT = "rgb8; jpeg compressed bgr8"  # as image_transport writes it
 
 
 class MessageError(RoverError, ValueError):
@@ -112,6 +113,11 @@ def image_of(message: Image) -> np.ndarray:
         raise MessageError("image data does not fit its height, width and step")
     view = np.frombuffer(message.data, np.uint8)
     return view.reshape(message.height, message.width, 3)
+
+
+def jpeg_message_of(header: Header, jpeg: bytes) -> CompressedImage:
+    """Of a JPEG file's bytes."""
+    return CompressedImage(header=header, format=JPEG_FORMAT, data=array("B", jpeg))
 
 
 def camera_frame_of(image: Image, odometry: Odometry, status: RoverStatus) -> CameraFrame:

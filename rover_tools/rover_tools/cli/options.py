@@ -32,6 +32,9 @@ params_option = click.option(
 no_dashboard_option = click.option(
     "--no-dashboard", is_flag=True, help="Do not serve the live page."
 )
+no_record_option = click.option(
+    "--no-record", is_flag=True, help="Do not record the run into the result folder."
+)
 open_option = click.option(
     "--open", "open_page", is_flag=True, help="Show the live page in a browser."
 )

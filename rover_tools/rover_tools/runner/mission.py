@@ -19,6 +19,7 @@ from rover_tools.progress import Progress
 from rover_tools.runner.graph import default_parameters
 from rover_tools.runner.graph_watch import GraphWatch
 from rover_tools.runner.page import start_page
+from rover_tools.runner.recording import recording
 from rover_tools.runner.run import Run, running_graph
 
 SIMULATOR = "simulator"
@@ -40,11 +41,13 @@ def run_mission(
     fps: float = FPS,
     page: bool = False,
     open_page: bool = False,
+    record: bool = False,
 ) -> Result:
     """Run one mission to its end, score it, and write the result folder.
 
     time_limit [s]: of simulated time. A strategy that is not given is that of the parameters.
-    `page` serves the live page, `open_page` shows it in a browser.
+    `page` serves the live page, `open_page` shows it in a browser; `record` records
+    the run into the result folder.
     Raises ParametersError, GraphNotReadyError or ProcessDiedError.
     """
     world.save(folder / "world")
@@ -54,14 +57,15 @@ def run_mission(
     with running_graph(folder, overrides, parameters) as run:
         if page:
             start_page(run, parameters or default_parameters(), open_page)
-        run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
-        done = _watch(run, time_limit)
-        run.processes.end(SIMULATOR)  # only then has it printed its last position
-        measured = read_run(folder / "log" / f"{SIMULATOR}.log")
-        mission = run.watch.mission
-        stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
-        grid = run.watch.wait_map(stamp, MAP_SECONDS)
-        rocks = run.watch.rocks()
+        with recording(run, record):
+            run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
+            done = _watch(run, time_limit)
+            run.processes.end(SIMULATOR)  # only then has it printed its last position
+            measured = read_run(folder / "log" / f"{SIMULATOR}.log")
+            mission = run.watch.mission
+            stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
+            grid = run.watch.wait_map(stamp, MAP_SECONDS)
+            rocks = run.watch.rocks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,

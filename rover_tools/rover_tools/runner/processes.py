@@ -71,6 +71,10 @@ class Processes:
         """The exit code of the named process, None while it runs."""
         return next(c for c in self._children if c.name == name).process.poll()
 
+    def last_line(self, name: str) -> str:
+        """The end of the named process's log."""
+        return _tail(next(c for c in self._children if c.name == name).log).splitlines()[-1]
+
     def end(self, name: str) -> None:
         """SIGINT to the named process, and wait; SIGKILL if it does not end."""
         child = next(c for c in self._children if c.name == name)

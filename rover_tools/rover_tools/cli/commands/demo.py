@@ -7,7 +7,13 @@ from pathlib import Path
 import click
 
 from rover_simulator.options import WorldOptions, seed_option, size_option
-from rover_tools.cli.options import json_option, no_dashboard_option, open_option, out_option
+from rover_tools.cli.options import (
+    json_option,
+    no_dashboard_option,
+    no_record_option,
+    open_option,
+    out_option,
+)
 from rover_tools.output import note, print_result, result_folder
 
 TIME_LIMIT = 600.0  # [s] simulated
@@ -16,12 +22,19 @@ TIME_LIMIT = 600.0  # [s] simulated
 @click.command("demo")
 @seed_option("Seed of the canyon.")
 @size_option(0.4)
+@no_record_option
 @no_dashboard_option
 @open_option
 @out_option
 @json_option
 def command(
-    seed: int, size: float, no_dashboard: bool, open_page: bool, out: Path | None, as_json: bool
+    seed: int,
+    size: float,
+    no_record: bool,
+    no_dashboard: bool,
+    open_page: bool,
+    out: Path | None,
+    as_json: bool,
 ) -> None:
     """Run a whole mission in a small generated canyon: explore, collect, return home.
 
@@ -40,7 +53,7 @@ def command(
     folder = result_folder("demo", out)
     result = run_mission(
         WorldOptions(seed, size).load(), seed, TIME_LIMIT, folder,
-        page=not no_dashboard, open_page=open_page,
+        page=not no_dashboard, open_page=open_page, record=not no_record,
     )  # fmt: skip
     print_result(result, as_json, summary(result))
     state = "is home" if result["done"] else "is not home"

@@ -11,6 +11,7 @@ from rover_simulator.options import WorldOptions, fps_option, time_limit_option,
 from rover_tools.cli.options import (
     json_option,
     no_dashboard_option,
+    no_record_option,
     open_option,
     out_option,
     params_option,
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 @fps_option()
 @time_limit_option(900.0, "Give up after this simulated time [s].")
 @params_option
+@no_record_option
 @no_dashboard_option
 @open_option
 @out_option
@@ -38,6 +40,7 @@ def command(
     fps: float,
     time_limit: float,
     params: Path | None,
+    no_record: bool,
     no_dashboard: bool,
     open_page: bool,
     out: Path | None,
@@ -61,7 +64,7 @@ def command(
     folder = result_folder("mission", out)
     result = run_mission(
         loaded, world.seed, time_limit, folder, parameters=params, strategy=strategy, fps=fps,
-        page=not no_dashboard, open_page=open_page,
+        page=not no_dashboard, open_page=open_page, record=not no_record,
     )  # fmt: skip
     print_result(result, as_json, summary(result))
     note(

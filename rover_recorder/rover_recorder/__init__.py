@@ -1,0 +1,1 @@
+"""Recordings of the graph in MCAP: written, salvaged, read."""

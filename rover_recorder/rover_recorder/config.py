@@ -1,0 +1,14 @@
+"""Parameters of the recorder node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rover_common.config import parameter
+
+
+@dataclass(frozen=True)
+class RecorderConfig:
+    folder: str = parameter(
+        "", "folder to record into; empty for a new one below results, named by the time"
+    )

@@ -1,0 +1,209 @@
+"""The recorder node: every topic of the graph into a file.
+
+Subscribes every topic that somebody publishes, but hidden ones, whose name has a part that begins
+with `_`; of an image topic its `/compressed` one where there is one. Messages are written as they
+are on the wire, other images as JPEG. Publishes /diagnostics. Parameters: RecorderConfig.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.serialization import serialize_message
+from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription
+from sensor_msgs.msg import Image
+
+from rover_common import topics
+from rover_common.errors import RoverError
+from rover_common.ros.conversions import MessageError, stamp_of
+from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.parameters import declare_parameters
+from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor
+from rover_recorder import bag
+from rover_recorder.config import RecorderConfig
+from rover_recorder.conversions import (
+    compressed_of,
+    qos_words,
+    stamp_in,
+    subscription_profile,
+    type_of,
+)
+from rover_recorder.errors import RecordingError
+from rover_recorder.schemas import begins_with_stamp, definition
+from rover_recorder.types import Topic
+from rover_recorder.writer import RecordingWriter
+
+SEARCH_PERIOD = 0.5  # [s] between two looks for new topics
+FLUSH_PERIOD = 1.0  # [s] a kill loses at most as much
+LAST_SECONDS = 0.3  # [s] for what was published before the end to arrive
+LOG_PERIOD = 5.0  # [s] between two lines about messages that are left out
+IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
+# The graph is recorded when these are: what a replay needs, and what each node makes.
+NEEDED = {
+    "bridge": (topics.COMPRESSED_IMAGE, topics.ODOMETRY, topics.STATUS),
+    "perception": (topics.WORLDMAP, topics.ROCKS),
+    "decision": (topics.COMMAND, topics.MISSION_STATE),
+}
+
+
+class RecorderNode(Node):
+    """Finds topics, and gives their messages to the writer."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__("recorder_node", **kwargs)
+        config = declare_parameters(self, RecorderConfig)
+        self.writer = RecordingWriter(bag.file_of(Path(config.folder or _new_folder())))
+        self.failure: OSError | None = None  # the recording has ended with it
+        self._recorded: dict[str, Subscription] = {}
+        self._left_out: set[str] = set()  # topics that cannot be recorded
+        peers = {name: partial(self._records, needed) for name, needed in NEEDED.items()}
+        self._diagnostics = NodeDiagnostics(self, peers)
+        wall = Clock(clock_type=ClockType.STEADY_TIME)
+        self._clocked = [
+            self.create_timer(SEARCH_PERIOD, self.search, clock=wall),
+            self.create_timer(FLUSH_PERIOD, self._flush, clock=wall),
+        ]
+        self.get_logger().info(f"recording into {self.writer.path.parent}")
+        self.search()
+
+    def destroy_node(self) -> None:
+        """End the file, then the node."""
+        if hasattr(self, "writer") and self.failure is None:
+            self._try(self.writer.close)
+            self.get_logger().info(
+                f"recorded {self.writer.messages} messages of {self.writer.topics} topics"
+            )
+        super().destroy_node()
+
+    def search(self) -> None:
+        """Subscribe the topics that are new."""
+        found = dict(self.get_topic_names_and_types())
+        for name, (kind, *others) in found.items():
+            hidden = any(part.startswith("_") for part in name.split("/"))
+            known = name in self._recorded or name in self._left_out
+            if known or hidden or others or self.failure is not None:
+                continue
+            if kind == IMAGE and f"{name}/compressed" in found:
+                continue
+            try:
+                self._subscribe(name, kind)
+            except RecordingError as error:
+                self._left_out.add(name)
+                self.get_logger().warning(f"{name} is not recorded: {error}")
+
+    def _subscribe(self, name: str, kind: str) -> None:
+        publishers = self.get_publishers_info_by_topic(name)
+        if not publishers:
+            return  # not yet, or no longer
+        offered = [publisher.qos_profile for publisher in publishers]
+        written = COMPRESSED if kind == IMAGE else kind
+        topic = Topic(
+            name=f"{name}/compressed" if kind == IMAGE else name,
+            type=written,
+            definition=definition(written),
+            qos=tuple(qos_words(profile) for profile in offered),
+            type_hash="" if kind == IMAGE else str(publishers[0].topic_type_hash),
+        )
+        self.writer.add_topic(topic)
+        if kind == IMAGE:
+            callback = partial(self._on_picture, topic.name)
+        elif begins_with_stamp(topic.definition):
+            callback = partial(self._on_stamped, topic.name)
+        else:
+            callback = partial(self._on_message, topic.name)
+        profile = subscription_profile(offered)
+        self._recorded[name] = self.create_subscription(
+            type_of(kind), name, callback, profile, raw=kind != IMAGE
+        )
+
+    def _on_message(self, topic: str, data: bytes) -> None:
+        now = time.time_ns()
+        self._try(partial(self.writer.write, topic, now, now, data))
+
+    def _on_stamped(self, topic: str, data: bytes) -> None:
+        self._try(partial(self.writer.write, topic, time.time_ns(), stamp_in(data), data))
+
+    def _on_picture(self, topic: str, message: Image) -> None:
+        now, stamp = time.time_ns(), stamp_of(message.header.stamp)
+        try:
+            data = serialize_message(compressed_of(message))
+        except MessageError as error:
+            self.get_logger().warning(f"{topic}: {error}", throttle_duration_sec=LOG_PERIOD)
+            return
+        self._try(partial(self.writer.write, topic, now, stamp, data))
+
+    def _flush(self) -> None:
+        self._diagnostics.counts["messages"] = self.writer.messages
+        self._diagnostics.counts["topics"] = self.writer.topics
+        self._try(self.writer.flush)
+
+    def _try(self, step: Any) -> None:
+        """Write; a disk that is full ends the recording, and nothing else."""
+        if self.failure is not None:
+            return
+        try:
+            step()
+        except OSError as error:
+            self.failure = error
+            self.writer.abandon()
+
+    def _records(self, needed: tuple[str, ...]) -> bool:
+        """Whether all these topics are subscribed, and their publishers know."""
+        found = [self._recorded.get(self.resolve_topic_name(topic)) for topic in needed]
+        return all(s is not None and s.get_publisher_count() > 0 for s in found)
+
+
+def _new_folder() -> Path:
+    root = Path(os.environ.get("ROVER_RESULTS", "results"))
+    return root / f"recording-{datetime.now():%Y%m%d-%H%M%S}-{os.getpid()}"
+
+
+def record(args: list[str] | None = None) -> None:
+    """Record until SIGINT or SIGTERM. Raises RecordingError, or OSError when the disk is full."""
+    stop: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _: stop.append(number))
+    # rclpy's own handlers would end the subscriptions before what was published has arrived.
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    node = None
+    try:
+        node = RecorderNode()
+        executor = EventsExecutor()
+        executor.add_node(node)
+        while not stop and node.failure is None:
+            executor.spin_once(timeout_sec=WAIT_SECONDS)
+        end = time.monotonic() + LAST_SECONDS
+        while (left := end - time.monotonic()) > 0 and node.failure is None:
+            executor.spin_once(timeout_sec=left)
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    if node.failure is not None:
+        raise node.failure
+
+
+def main() -> None:
+    """Entry point of `ros2 run rover_recorder recorder_node`."""
+    try:
+        record()
+    except RoverError as error:
+        sys.exit(f"recorder_node: {error}")
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        sys.exit(f"recorder_node: the recording ends: {where}{error.strerror}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+"""The recording of a run: the recorder's node as a process, from its first frame to its last."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rover_recorder.reader import FOLDER
+from rover_tools.output import note
+from rover_tools.runner.graph import executable
+from rover_tools.runner.run import Run
+
+RECORDER = "recorder_node"
+READY_SECONDS = 30.0  # [s] for the node to start and to find the graph
+
+
+def recorder_command(folder: Path) -> list[str]:
+    """The command that records the running graph into a folder."""
+    value = json.dumps(str(folder.absolute()), ensure_ascii=False)
+    return [executable("rover_recorder", RECORDER), "--ros-args", "-p", f"folder:={value}"]
+
+
+@contextmanager
+def recording(run: Run, wanted: bool = True) -> Iterator[None]:
+    """Record what happens in the block into the run's folder, in place of an older recording.
+
+    The node ends while the graph still runs, so that its final state is recorded. Raises
+    GraphNotReadyError or ProcessDiedError, but a recording that ends too early is only a note.
+    """
+    if not wanted:
+        yield
+        return
+    folder = run.folder / FOLDER
+    shutil.rmtree(folder, ignore_errors=True)
+    run.processes.start(RECORDER, recorder_command(folder))
+    run.watch.wait_ready([RECORDER], run.processes.check, READY_SECONDS)
+    run.processes.make_optional(RECORDER)  # a mission must not end with a full disk
+    yield
+    if run.processes.ended(RECORDER) is None:
+        run.processes.end(RECORDER)
+    else:
+        note(f"the recording has ended too early: {run.processes.last_line(RECORDER)}")
