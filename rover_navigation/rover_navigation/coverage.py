@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -37,8 +39,10 @@ class CoverageGrid:
         row0, col0 = self._geometry.cell_of(pose.x, pose.y)
         row, col = self._rows + row0, self._cols + col0
         x, y = self._geometry.center_of(row, col)
-        distance = np.hypot(x - pose.x, y - pose.y)
-        bearing = np.angle(np.exp(1j * (np.arctan2(y - pose.y, x - pose.x) - pose.yaw)))
+        x, y = x - pose.x, y - pose.y
+        distance = np.hypot(x, y)
+        cos, sin = math.cos(pose.yaw), math.sin(pose.yaw)
+        bearing = np.arctan2(cos * y - sin * x, cos * x + sin * y)
         ray = np.round((bearing - scan.angle_min) / scan.angle_increment).astype(int)
         free = scan.ranges[np.clip(ray, 0, len(scan.ranges) - 1)]
         near = (distance < scale.search_range) & (distance < free + scale.search_slack)

@@ -114,22 +114,23 @@ class Machine:
     def __init__(self) -> None:
         self._chart = MissionChart()
         self.state = State.IDLE
-
-    @property
-    def heading_home(self) -> bool:
-        """Whether the rover heads home, or will when what interrupted that is over."""
-        active = {state.id for state in self._chart.configuration}
-        if "driving" in active:
-            return "heading_home" in active
-        last = self._chart.history_values.get("phase", ())
-        return any(state.id == "heading_home" for state in last)
+        # Whether the rover heads home, or will when what interrupted that is over.
+        self.heading_home = False
 
     def handle(self, event: Event) -> bool:
         """Whether the event led to another state."""
         before = self.state
         self._chart.send(event.name)
         (self.state,) = (s.value for s in self._chart.configuration if isinstance(s.value, State))
+        self.heading_home = self._is_homeward()
         return self.state is not before
+
+    def _is_homeward(self) -> bool:
+        active = {state.id for state in self._chart.configuration}
+        if "driving" in active:
+            return "heading_home" in active
+        last = self._chart.history_values.get("phase", ())
+        return any(state.id == "heading_home" for state in last)
 
 
 @dataclass(frozen=True)

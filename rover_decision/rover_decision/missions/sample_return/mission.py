@@ -25,6 +25,7 @@ APPROACHING = {State.ROCK_APPROACH, State.TILT, State.STUCK}
 # Between these it may go to and fro for ever: only to leave the spot is progress then.
 TO_AND_FRO = {State.FORWARD, State.STOP, State.CIRCLE}
 EXPLORING = TO_AND_FRO | {State.ROCK_APPROACH}
+RECOVERING = (State.TILT, State.STUCK)
 HOMEWARD = {State.RETURN_HOME, State.DONE}
 
 
@@ -188,5 +189,5 @@ class SampleReturnMission:
             rocks_given_up=samples.given_up,
             home_distance=math.dist(parts.home, (tick.pose.x, tick.pose.y)),
             distance=parts.inputs.distance,
-            recoveries=sum(state.recoveries for state in self._states.values()),
+            recoveries=sum(self._states[state].recoveries for state in RECOVERING),
         )
