@@ -8,22 +8,50 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from nav_msgs.msg import OccupancyGrid, Path
-from rover_interfaces.msg import MissionState, RoverStatus
-from sensor_msgs.msg import Image
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
+from rclpy.serialization import deserialize_message
+from rover_interfaces.msg import DriveCommand, MissionState, RoverStatus
+from sensor_msgs.msg import CompressedImage, Image
+from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 
+from rover_common import topics
 from rover_common.ros.conversions import grid_of, image_of, stamp_of
 from rover_common.types import VehicleState
-from rover_dashboard.encoders import Picture, StampedMap
+from rover_dashboard.encoders import Jpeg, Picture, StampedMap
 from rover_dashboard.history import StateReport
 
 Point = tuple[float, float]
+COMPRESSED_VISION = f"{topics.VISION_IMAGE}/compressed"  # in recordings
+
+
+TYPES: dict[str, type] = {
+    topics.ODOMETRY: Odometry,
+    topics.STATUS: RoverStatus,
+    topics.MISSION_STATE: MissionState,
+    topics.BRIDGE_STATE: String,
+    topics.COMMAND: DriveCommand,
+    topics.COMPRESSED_IMAGE: CompressedImage,
+    topics.VISION_IMAGE: Image,
+    COMPRESSED_VISION: CompressedImage,
+    topics.WORLDMAP: OccupancyGrid,
+    topics.PLAN: Path,
+    topics.MISSION_MARKERS: MarkerArray,
+}
+
+
+def decoded(topic: str, data: bytes) -> Any:
+    """A message of one of the topics in TYPES from its CDR bytes."""
+    return deserialize_message(data, TYPES[topic])
 
 
 def picture_of(message: Image) -> Picture:
     """Raises MessageError."""
     return Picture(stamp_of(message.header.stamp), image_of(message))
+
+
+def jpeg_of(message: CompressedImage) -> Jpeg:
+    return Jpeg(stamp_of(message.header.stamp), message.data.tobytes())
 
 
 def map_of(message: OccupancyGrid) -> StampedMap:

@@ -10,7 +10,6 @@ import numpy as np
 
 from rover_common.types import GridMap
 
-JPEG_QUALITY = 85
 MARGIN = 3.0  # [m] of unknown ground shown around what is known
 UNKNOWN = 255  # in a map's picture; otherwise the probability of an obstacle [%]
 
@@ -21,6 +20,14 @@ class Picture:
 
     stamp: int  # [ns]
     image: np.ndarray  # (height, width, 3) uint8 RGB
+
+
+@dataclass(frozen=True)
+class Jpeg:
+    """An image of a topic that is compressed already."""
+
+    stamp: int  # [ns]
+    data: bytes  # of the file
 
 
 @dataclass(frozen=True)
@@ -39,15 +46,10 @@ class Encoded:
     content: bytes
 
 
-def jpeg_of(picture: Picture) -> Encoded:
-    """For camera images."""
-    bgr = cv2.cvtColor(picture.image, cv2.COLOR_RGB2BGR)
-    _, data = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
-    return Encoded({"type": "image/jpeg", "stamp": picture.stamp * 1e-9}, data.tobytes())
-
-
-def png_of(picture: Picture) -> Encoded:
-    """For images of few colours, exactly."""
+def picture_of(picture: Picture | Jpeg) -> Encoded:
+    """A JPEG as it is; an image as PNG, which suits the few colours of a segmented one."""
+    if isinstance(picture, Jpeg):
+        return Encoded({"type": "image/jpeg", "stamp": picture.stamp * 1e-9}, picture.data)
     bgr = cv2.cvtColor(picture.image, cv2.COLOR_RGB2BGR)
     _, data = cv2.imencode(".png", bgr, [cv2.IMWRITE_PNG_COMPRESSION, 1])
     return Encoded({"type": "image/png", "stamp": picture.stamp * 1e-9}, data.tobytes())

@@ -7,19 +7,19 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from rover_dashboard.encoders import Encoded, jpeg_of, map_of, png_of
+from rover_dashboard.encoders import Encoded, map_of, picture_of
 from rover_dashboard.history import LOGS, History
 from rover_dashboard.log import Cursor
 from rover_dashboard.slots import Slot, Slots
 
 # In the order in which they are sent. The first ones are heard of while somebody looks only.
 VIEWS = ("camera", "vision", "map", "plan", "markers")
-SLOTS = ("simulator", "mission", "vehicle", "parameters", *VIEWS)
+SLOTS = ("playback", "simulator", "mission", "vehicle", "parameters", *VIEWS)
 OF_RUN = ("map", "plan", "markers", "vision")  # nothing of another run may stay
 
 ENCODERS: Mapping[str, Callable[[Any], Encoded | None]] = {
-    "camera": jpeg_of,
-    "vision": png_of,
+    "camera": picture_of,
+    "vision": picture_of,
     "map": map_of,
 }
 Message = str | bytes

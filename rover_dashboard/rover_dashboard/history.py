@@ -90,6 +90,12 @@ class History:
             if timeline.last is None or timeline.last[1] != report.name:
                 timeline.append((self._elapsed(report.stamp), report.name, report.reason))
 
+    def restart(self) -> None:
+        """Forget everything, as before the first frame."""
+        with self._lock:
+            self._clear()
+            self.run = self._early = None
+
     def stop_viewing(self) -> None:
         """Nobody looks: maps and commands are no longer heard of."""
         with self._lock:
@@ -97,16 +103,19 @@ class History:
             self._arrivals.clear()
 
     def _begin(self, run: Run) -> None:
+        self._clear()
         self.run = run
+        early = self._early
+        if early is not None and early.run == run.number:
+            self._logs["timeline"].append((self._elapsed(early.stamp), early.name, early.reason))
+            self._early = None
+
+    def _clear(self) -> None:
         for log in self._logs.values():
             log.clear()
         self._arrivals.clear()
         self._map_stamp = None
         self._begin_samples()
-        early = self._early
-        if early is not None and early.run == run.number:
-            self._logs["timeline"].append((self._elapsed(early.stamp), early.name, early.reason))
-            self._early = None
 
     def _begin_samples(self) -> None:
         self._period = PERIOD

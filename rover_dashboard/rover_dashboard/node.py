@@ -1,8 +1,9 @@
 """The dashboard node: serves a live page of the mission.
 
-Subscribes odom and rover_status (joined by stamp), mission_state and bridge_state all the time, and
-camera/image_raw, vision_image, worldmap, plan, mission_markers and cmd_drive while somebody looks.
-Calls the services and sets the parameters of decision_node. Parameters: see DashboardConfig.
+Subscribes odom and rover_status (joined by stamp), mission_state and bridge_state all the time;
+camera/image_raw/compressed, vision_image, worldmap, plan, mission_markers and cmd_drive while
+somebody looks. Calls the services and sets the parameters of decision_node. Parameters: see
+DashboardConfig.
 asyncio runs in the main thread, rclpy in one other; they share slots and the history.
 """
 
@@ -21,40 +22,54 @@ import rclpy
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.executors import Executor
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
 from rclpy.subscription import Subscription
 from rover_interfaces.msg import DriveCommand, MissionState, RoverStatus
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
 from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
-from rover_common.ros.conversions import command_of, stamp_of, vehicle_state_of
 from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor
-from rover_common.ros.sync import ExactTimeSynchronizer
 from rover_dashboard.config import DashboardConfig
-from rover_dashboard.conversions import (
-    map_of,
-    markers_of,
-    mission_of,
-    picture_of,
-    plan_of,
-    report_of,
-    vehicle_of,
-)
-from rover_dashboard.feed import OF_RUN, VIEWS, Feed
+from rover_dashboard.feed import Feed
 from rover_dashboard.history import History
+from rover_dashboard.node_intake import Intake
 from rover_dashboard.node_requests import Requests
-from rover_dashboard.protocol import SETTABLE, Answer, Value
+from rover_dashboard.protocol import (
+    SETTABLE,
+    Answer,
+    MissionRequest,
+    ParameterChange,
+    PlaybackChange,
+    Wish,
+)
 from rover_dashboard.server import Server
 from rover_dashboard.slots import Slots
 
 LOG_PERIOD = 5.0  # [s] between two lines about messages that cannot be shown
 PARAMETERS_PERIOD = 2.0  # [s] between two reads of the decision node's parameters
+
+Endpoints = tuple[tuple[str, type, QoSProfile], ...]  # topic, type, QoS
+ALWAYS: Endpoints = (
+    (topics.ODOMETRY, Odometry, qos.FRAME),
+    (topics.STATUS, RoverStatus, qos.FRAME),
+    (topics.MISSION_STATE, MissionState, qos.LATCHED),
+    (topics.BRIDGE_STATE, String, qos.LATCHED),
+)
+WATCHED: Endpoints = (  # while somebody looks
+    (topics.COMPRESSED_IMAGE, CompressedImage, qos.VIEW),
+    (topics.VISION_IMAGE, Image, qos.VIEW),
+    (topics.WORLDMAP, OccupancyGrid, qos.LATCHED),
+    (topics.PLAN, Path, qos.VIEW),
+    (topics.MISSION_MARKERS, MarkerArray, qos.VIEW),
+    (topics.COMMAND, DriveCommand, qos.FRAME),
+)
 
 
 class DashboardNode(Node):
@@ -66,70 +81,31 @@ class DashboardNode(Node):
         self.slots = Slots()
         self.history = History()
         self.requests = Requests(self)
-        self._sync = ExactTimeSynchronizer((topics.ODOMETRY, topics.STATUS))
+        self._intake = Intake(self.slots, self.history)
         self._views: list[Subscription] = []
-        subscribe = self.create_subscription
-        for topic, kind in ((topics.ODOMETRY, Odometry), (topics.STATUS, RoverStatus)):
-            subscribe(kind, topic, partial(self._on_part, topic), qos.FRAME)
-        subscribe(MissionState, topics.MISSION_STATE, self._on_mission, qos.LATCHED)
-        subscribe(String, topics.BRIDGE_STATE, self._on_bridge, qos.LATCHED)
+        self._subscribe(ALWAYS)
+
+    def _subscribe(self, endpoints: Endpoints) -> list[Subscription]:
+        return [
+            self.create_subscription(kind, topic, partial(self._on_message, topic), profile)
+            for topic, kind, profile in endpoints
+        ]
 
     def set_watched(self, watched: bool) -> None:
         """Somebody looks, or nobody does any more; to be called in the executor's thread."""
         if watched and not self._views:
-            subscribe = self.create_subscription
-            camera, vision = (partial(self._on_picture, name) for name in ("camera", "vision"))
-            self._views = [
-                subscribe(Image, topics.IMAGE, camera, qos.VIEW),
-                subscribe(Image, topics.VISION_IMAGE, vision, qos.VIEW),
-                subscribe(OccupancyGrid, topics.WORLDMAP, self._on_map, qos.LATCHED),
-                subscribe(Path, topics.PLAN, self._on_plan, qos.VIEW),
-                subscribe(MarkerArray, topics.MISSION_MARKERS, self._on_markers, qos.VIEW),
-                subscribe(DriveCommand, topics.COMMAND, self._on_command, qos.FRAME),
-            ]
+            self._views = self._subscribe(WATCHED)
         elif not watched:
             for view in self._views:
                 self.destroy_subscription(view)
             self._views = []
-            self.slots.empty(VIEWS)
-            self.history.stop_viewing()
+            self._intake.stop_viewing()
 
-    def _on_part(self, topic: str, message: Any) -> None:
-        parts = self._sync.add(topic, stamp_of(message.header.stamp), message)
-        if parts is None:
-            return
-        status = parts[topics.STATUS]
-        vehicle = vehicle_state_of(parts[topics.ODOMETRY], status)
-        if self.history.add_frame(vehicle, status.steering_angle):
-            self.slots.empty(OF_RUN)
-        self.slots.put("vehicle", vehicle_of(vehicle, status))
-
-    def _on_mission(self, message: MissionState) -> None:
-        self.history.add_state(report_of(message))
-        self.slots.put("mission", mission_of(message))
-
-    def _on_bridge(self, message: String) -> None:
-        self.slots.put("simulator", message.data)
-
-    def _on_picture(self, name: str, message: Image) -> None:
+    def _on_message(self, topic: str, message: Any) -> None:
         try:
-            self.slots.put(name, picture_of(message))
+            self._intake.take(topic, message)
         except RoverError as error:
-            self.get_logger().warning(f"{name}: {error}", throttle_duration_sec=LOG_PERIOD)
-
-    def _on_map(self, message: OccupancyGrid) -> None:
-        stamped = map_of(message)
-        self.history.add_map(stamped.stamp)
-        self.slots.put("map", stamped)
-
-    def _on_plan(self, message: Path) -> None:
-        self.slots.put("plan", plan_of(message))
-
-    def _on_markers(self, message: MarkerArray) -> None:
-        self.slots.put("markers", markers_of(message))
-
-    def _on_command(self, message: DriveCommand) -> None:
-        self.history.add_command(command_of(message)[0])
+            self.get_logger().warning(f"{topic}: {error}", throttle_duration_sec=LOG_PERIOD)
 
 
 class GraphRobot:
@@ -141,13 +117,16 @@ class GraphRobot:
         self._watched = False
         self._reader: asyncio.Task[None] | None = None
 
-    async def request(self, name: str) -> Answer:
-        return await self._node.requests.request(name)
-
-    async def set_parameter(self, name: str, value: Value) -> Answer:
-        answer = await self._node.requests.set_parameter(name, value)
-        await self._read_parameters()
-        return answer
+    async def carry_out(self, wish: Wish) -> Answer:
+        match wish:
+            case MissionRequest(name):
+                return await self._node.requests.request(name)
+            case ParameterChange(name, value):
+                answer = await self._node.requests.set_parameter(name, value)
+                await self._read_parameters()
+                return answer
+            case PlaybackChange():
+                return Answer(False, "this is a live mission, not a recording")
 
     def watch(self, watched: bool) -> None:
         """To be called in the server's thread."""

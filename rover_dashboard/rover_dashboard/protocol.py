@@ -15,6 +15,7 @@ from rover_decision.types import Request
 
 Value = str | float
 REQUESTS = [request.value for request in Request]
+PLAYBACK = ("playing", "position", "speed")  # 0 or 1; [s]; seconds a second
 SETTABLE: dict[str, ParameterInfo] = {
     field.name: field.metadata["parameter"]
     for field in fields(DecisionConfig)
@@ -27,13 +28,37 @@ class ProtocolError(RoverError, ValueError):
 
 
 @dataclass(frozen=True)
+class MissionRequest:
+    """To the decision node."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class ParameterChange:
+    """Of the decision node."""
+
+    name: str
+    value: Value
+
+
+@dataclass(frozen=True)
+class PlaybackChange:
+    """Of a recording that is shown: whether it plays, where, how fast."""
+
+    name: str  # one of PLAYBACK
+    value: float
+
+
+Wish = MissionRequest | ParameterChange | PlaybackChange
+
+
+@dataclass(frozen=True)
 class Ask:
-    """A request to the mission, or one parameter's new value."""
+    """What a page asks for."""
 
     id: int  # chosen by the page, repeated in the answer
-    request: str = ""
-    name: str = ""
-    value: Value = ""
+    wish: Wish
 
 
 @dataclass(frozen=True)
@@ -45,11 +70,10 @@ class Answer:
 
 
 class Robot(Protocol):
-    """What the server asks of the graph; every method may be called from the server's thread."""
+    """The graph or a recording, as the server sees it; called in the server's thread."""
 
-    async def request(self, name: str) -> Answer: ...
-
-    async def set_parameter(self, name: str, value: Value) -> Answer: ...
+    async def carry_out(self, wish: Wish) -> Answer:
+        """What a page asks for."""
 
     def watch(self, watched: bool) -> None:
         """Whether somebody looks."""
@@ -67,11 +91,19 @@ def parse(text: str) -> Ask:
     if request is not None:
         if request not in REQUESTS:
             raise ProtocolError(f"no request {request!r}")
-        return Ask(data["id"], request=request)
+        return Ask(data["id"], MissionRequest(request))
+    if "playback" in data:
+        return Ask(data["id"], _playback_change(data["playback"], data.get("value")))
     name, value = data.get("set"), data.get("value")
     if not isinstance(name, str) or name not in SETTABLE:
         raise ProtocolError(f"no settable parameter {name!r}")
-    return Ask(data["id"], name=name, value=_checked(SETTABLE[name], name, value))
+    return Ask(data["id"], ParameterChange(name, _checked(SETTABLE[name], name, value)))
+
+
+def _playback_change(name: Any, value: Any) -> PlaybackChange:
+    if name not in PLAYBACK:
+        raise ProtocolError(f"nothing to change in a playback: {name!r}")
+    return PlaybackChange(name, _number(name, value))
 
 
 def _checked(info: ParameterInfo, name: str, value: Any) -> Value:
@@ -80,6 +112,10 @@ def _checked(info: ParameterInfo, name: str, value: Any) -> Value:
         if value not in info.choices:
             raise ProtocolError(f"{name}: {value!r} is not one of {', '.join(info.choices)}")
         return str(value)
+    return _number(name, value)
+
+
+def _number(name: str, value: Any) -> float:
     if type(value) not in (int, float) or not math.isfinite(value):
         raise ProtocolError(f"{name}: {value!r} is no number")
     return float(value)

@@ -13,7 +13,6 @@ from rover_dashboard.access import is_own_host, is_own_origin
 from rover_dashboard.feed import Feed, Seen
 from rover_dashboard.protocol import (
     Answer,
-    Ask,
     ProtocolError,
     Robot,
     answer_message,
@@ -129,12 +128,7 @@ class Server:
             ask = parse(text)
         except ProtocolError as error:
             return answer_message(-1, Answer(False, str(error)))
-        return answer_message(ask.id, await self._carry_out(ask))
-
-    async def _carry_out(self, ask: Ask) -> Answer:
-        if ask.request:
-            return await self._robot.request(ask.request)
-        return await self._robot.set_parameter(ask.name, ask.value)
+        return answer_message(ask.id, await self._robot.carry_out(ask.wish))
 
     async def _end_viewers(self, _: web.Application) -> None:
         for socket in set(self._viewers):

@@ -8,7 +8,15 @@ import socket
 import pytest
 
 from rover_dashboard.access import is_own_host, is_own_origin
-from rover_dashboard.protocol import SETTABLE, Ask, ProtocolError, parse
+from rover_dashboard.protocol import (
+    SETTABLE,
+    Ask,
+    MissionRequest,
+    ParameterChange,
+    PlaybackChange,
+    ProtocolError,
+    parse,
+)
 
 
 @pytest.mark.parametrize(
@@ -51,11 +59,13 @@ def test_only_the_pages_own_origin_is_accepted(origin, own):
 
 
 def test_a_request_and_a_parameter_are_read():
-    assert parse('{"id": 1, "request": "pause"}') == Ask(1, request="pause")
-    speed = Ask(2, name="top_speed", value=2.0)
+    assert parse('{"id": 1, "request": "pause"}') == Ask(1, MissionRequest("pause"))
+    speed = Ask(2, ParameterChange("top_speed", 2.0))
     assert parse('{"id": 2, "set": "top_speed", "value": 2}') == speed
-    explorer = Ask(3, name="explorer", value="frontier")
+    explorer = Ask(3, ParameterChange("explorer", "frontier"))
     assert parse('{"id": 3, "set": "explorer", "value": "frontier"}') == explorer
+    position = Ask(4, PlaybackChange("position", 1.5))
+    assert parse('{"id": 4, "playback": "position", "value": 1.5}') == position
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.node import Node
 from rover_interfaces.msg import DriveCommand, MissionState, RoverStatus
-from sensor_msgs.msg import Image
+from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -20,11 +20,12 @@ from rover_common.ros import conversions, qos
 from rover_dashboard.feed import VIEWS
 from rover_dashboard.log import Cursor
 from rover_dashboard.node import DashboardNode, GraphRobot, spinning
+from rover_dashboard.protocol import MissionRequest, ParameterChange, PlaybackChange
 from rover_decision.node import DecisionNode
 
 WATCHED = {
-    topics.IMAGE, topics.VISION_IMAGE, topics.WORLDMAP, topics.PLAN, topics.MISSION_MARKERS,
-    topics.COMMAND,
+    topics.COMPRESSED_IMAGE, topics.VISION_IMAGE, topics.WORLDMAP, topics.PLAN,
+    topics.MISSION_MARKERS, topics.COMMAND,
 }  # fmt: skip
 ALWAYS = {topics.ODOMETRY, topics.STATUS, topics.MISSION_STATE, topics.BRIDGE_STATE}
 
@@ -108,7 +109,7 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
     grid.info.resolution = 1.0
     markers = MarkerArray(markers=[Marker(ns="goal", action=Marker.DELETE)])
     sent = {
-        topics.IMAGE: (image, qos.FRAME),
+        topics.COMPRESSED_IMAGE: (CompressedImage(), qos.FRAME),
         topics.VISION_IMAGE: (image, qos.VIEW),
         topics.WORLDMAP: (grid, qos.LATCHED),
         topics.PLAN: (Path(), qos.VIEW),
@@ -130,8 +131,8 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
 
 
 def test_an_image_that_cannot_be_shown_is_left_out(dashboard):
-    dashboard._on_picture("camera", Image(encoding="mono8"))
-    assert dashboard.slots.get("camera") is None
+    dashboard._on_message(topics.VISION_IMAGE, Image(encoding="mono8"))
+    assert dashboard.slots.get("vision") is None
 
 
 @pytest.fixture
@@ -162,13 +163,14 @@ def test_requests_and_parameters_reach_the_decision_node(ros, dashboard, decisio
 
     async def ask(robot: GraphRobot) -> tuple:
         return (
-            await robot.request("resume"),
-            await robot.request("pause"),
-            await robot.set_parameter("top_speed", 2.0),
-            await robot.set_parameter("top_speed", 99.0),
+            await robot.carry_out(MissionRequest("resume")),
+            await robot.carry_out(MissionRequest("pause")),
+            await robot.carry_out(ParameterChange("top_speed", 2.0)),
+            await robot.carry_out(ParameterChange("top_speed", 99.0)),
+            await robot.carry_out(PlaybackChange("playing", 1.0)),
         )
 
-    resumed, paused, slower, too_fast = asked_of(ros, dashboard, ask)
+    resumed, paused, slower, too_fast, played = asked_of(ros, dashboard, ask)
     assert not resumed.ok
     assert resumed.text == "not possible now; resume: IDLE"
     assert paused.ok
@@ -178,11 +180,14 @@ def test_requests_and_parameters_reach_the_decision_node(ros, dashboard, decisio
     assert not too_fast.ok
     assert "range" in too_fast.text
     assert dashboard.slots.get("parameters").value["top_speed"] == 2.0
+    assert not played.ok
+    assert "live" in played.text
 
 
 def test_without_a_decision_node_the_answer_says_so(ros, dashboard):
     async def ask(robot: GraphRobot) -> tuple:
-        return await robot.request("pause"), await robot.set_parameter("explorer", "tour")
+        wishes = MissionRequest("pause"), ParameterChange("explorer", "tour")
+        return tuple([await robot.carry_out(wish) for wish in wishes])
 
     for answer in asked_of(ros, dashboard, ask):
         assert not answer.ok

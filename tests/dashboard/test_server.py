@@ -12,7 +12,14 @@ from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, WSServerH
 
 from rover_dashboard.feed import Feed
 from rover_dashboard.history import History
-from rover_dashboard.protocol import SETTABLE, Answer, Value
+from rover_dashboard.protocol import (
+    SETTABLE,
+    Answer,
+    MissionRequest,
+    ParameterChange,
+    PlaybackChange,
+    Wish,
+)
 from rover_dashboard.server import MAX_VIEWERS, STATIC, PortError, Server
 from rover_dashboard.slots import Slots
 
@@ -24,16 +31,12 @@ class Notes:
     """A Robot that does what it is asked for, and remembers it."""
 
     def __init__(self) -> None:
-        self.asked: list[tuple] = []
+        self.asked: list[Wish] = []
         self.watched: asyncio.Queue[bool] = asyncio.Queue()
 
-    async def request(self, name: str) -> Answer:
-        self.asked.append((name,))
-        return Answer(name != "resume", f"{name}: done")
-
-    async def set_parameter(self, name: str, value: Value) -> Answer:
-        self.asked.append((name, value))
-        return Answer(True, f"{name} is {value}")
+    async def carry_out(self, wish: Wish) -> Answer:
+        self.asked.append(wish)
+        return Answer(wish != MissionRequest("resume"), f"{wish.name}: done")
 
     def watch(self, watched: bool) -> None:
         self.watched.put_nowait(watched)
@@ -127,9 +130,18 @@ async def test_a_request_and_a_parameter_reach_the_robot_and_are_answered(it: Se
         assert (await receive(page, "answer"))["ok"] is False
         await page.send_json({"id": 9, "set": "top_speed", "value": 2})
         assert (await receive(page, "answer"))["id"] == 9
+        await page.send_json({"id": 10, "playback": "position", "value": 12.5})
+        assert (await receive(page, "answer"))["id"] == 10
+        await page.send_json({"id": 11, "playback": "colour", "value": 1})
+        assert (await receive(page, "answer"))["ok"] is False
         await page.send_str("nonsense")
         assert await receive(page, "answer") == {"id": -1, "ok": False, "text": "no JSON"}
-    assert it.robot.asked == [("pause",), ("resume",), ("top_speed", 2.0)]
+    assert it.robot.asked == [
+        MissionRequest("pause"),
+        MissionRequest("resume"),
+        ParameterChange("top_speed", 2.0),
+        PlaybackChange("position", 12.5),
+    ]
 
 
 @serving

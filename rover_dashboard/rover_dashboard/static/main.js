@@ -5,6 +5,7 @@ import { Controls } from "./controls.js";
 import { MapView } from "./map.js";
 import { showGround, showMission, showVehicle } from "./numbers.js";
 import { Pictures } from "./pictures.js";
+import { PlaybackBar } from "./playback.js";
 import { Plots } from "./plots.js";
 import { Timeline } from "./timeline.js";
 
@@ -15,8 +16,15 @@ const timeline = new Timeline();
 const link = document.getElementById("link");
 let simulator = null;
 let connected = "connecting";
+let recorded = false; // a recording is shown, not the graph
 
 const parts = {
+  playback: ({ data }) => {
+    recorded = true;
+    pictures.recorded = true;
+    playback.show(data);
+    showLink();
+  },
   camera: (message) => pictures.show("camera", message),
   vision: (message) => pictures.show("vision", message),
   map: (message) => {
@@ -55,11 +63,12 @@ const connection = new Connection(
   },
 );
 const controls = new Controls(connection);
+const playback = new PlaybackBar(connection);
 
 function showLink() {
-  const waiting = connected === "connected" && simulator !== "connected";
+  const waiting = connected === "connected" && !recorded && simulator !== "connected";
   link.dataset.link = waiting ? "waiting" : connected;
   link.textContent = waiting
     ? "no simulator"
-    : { connecting: "connecting", connected: "live", lost: "connection lost, trying again" }[connected];
+    : { connecting: "connecting", connected: recorded ? "recording" : "live", lost: "connection lost, trying again" }[connected];
 }

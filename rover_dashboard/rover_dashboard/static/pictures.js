@@ -5,6 +5,7 @@ const STALE = 2; // [s]
 export class Pictures {
   constructor() {
     this.pictures = new Map();
+    this.recorded = false; // images of a recording do not grow old
     for (const figure of document.querySelectorAll("[data-picture]")) {
       const canvas = figure.querySelector("canvas");
       this.pictures.set(figure.dataset.picture, {
@@ -36,8 +37,11 @@ export class Pictures {
   tell() {
     for (const { figure, caption, heard } of this.pictures.values()) {
       const age = heard === null ? Infinity : (performance.now() - heard) / 1000;
-      figure.classList.toggle("stale", age > STALE);
-      caption.textContent = heard === null ? "no image" : age > STALE ? `${age.toFixed(0)} s old` : "live";
+      const stale = heard === null || (age > STALE && !this.recorded);
+      figure.classList.toggle("stale", stale);
+      if (heard === null) caption.textContent = "no image";
+      else if (stale) caption.textContent = `${age.toFixed(0)} s old`;
+      else caption.textContent = this.recorded ? "recorded" : "live";
     }
   }
 }

@@ -18,6 +18,7 @@ TABLE = {
     "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
     "record": Entry(f"{COMMANDS}.record", "all topics of the running graph, into an MCAP file"),
     "replay": Entry(f"{COMMANDS}.replay", "play a recorded run through the graph, score the map"),
+    "view": Entry(f"{COMMANDS}.view", "show a recording on the live page, with a time slider"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "bench": Entry(
         "rover_tools.cli.bench.group", "graph, perception, decision, simulator or tours"
