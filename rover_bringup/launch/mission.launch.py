@@ -68,10 +68,10 @@ def generate_launch_description() -> LaunchDescription:
     return LaunchDescription([*arguments, *nodes, *optional_nodes(share)])
 
 
-def optional_node(argument: str, package: str, executable: str) -> Node:
+def optional_node(argument: str, owner: str, executable: str) -> Node:
     """A node beside the mission, if the launch argument is true."""
     return Node(
-        package=package,
+        package=owner,
         executable=executable,
         name=executable,
         namespace=LaunchConfiguration("namespace"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from mcap.reader import make_reader
 
@@ -37,10 +38,15 @@ class Recording:
 
         start, end [ns]: log times, both included. Raises RecordingError where the file is damaged.
         """
+        return self._found(topics=topics, starting_at=start, ending_at=end)
+
+    def last(self, topic: str) -> Record | None:
+        """The last message of a topic; None where there is none. Raises RecordingError."""
+        return next(self._found(topics=[topic], reverse=True), None)
+
+    def _found(self, **conditions: Any) -> Iterator[Record]:
         with self.path.open("rb") as stream:
-            found = make_reader(stream, validate_crcs=True).iter_messages(
-                topics, starting_at=start, ending_at=end
-            )
+            found = make_reader(stream, validate_crcs=True).iter_messages(**conditions)
             try:
                 for _, channel, message in found:
                     yield Record(

@@ -44,7 +44,7 @@ OPTIONS = {
     ("scoreboard", "--strategy"): "write --strategies NAMES",
     ("scoreboard", "--explorer"): "write --strategies NAMES",
     ("scoreboard", "--params"): "the missions of a table have the default parameters; use mission",
-    ("replay", "--recording"): "write the folder alone: replay DIR",
+    ("replay", "--recording"): "write it alone: replay RUN",
     ("replay", "--map"): "write --truth PNG for the true map",
     ("sim", "--speed"): "write --rate N",
     ("decision", "--seed"): "write --seeds N",

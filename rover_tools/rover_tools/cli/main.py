@@ -17,7 +17,7 @@ TABLE = {
     "mission": Entry(f"{COMMANDS}.mission", "one mission in the embedded simulator, to its end"),
     "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
     "record": Entry(f"{COMMANDS}.record", "all topics of the running graph, into an MCAP file"),
-    "replay": Entry(f"{COMMANDS}.replay", "play a recorded run through the graph, score the map"),
+    "replay": Entry(f"{COMMANDS}.replay", "play a recorded run again, and score the map"),
     "view": Entry(f"{COMMANDS}.view", "show a recording on the live page, with a time slider"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "bench": Entry(

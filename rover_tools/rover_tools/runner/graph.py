@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import socket
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
@@ -47,12 +47,14 @@ def start_graph(
     port: int,
     parameters_file: Path,
     overrides: Mapping[str, Mapping[str, object]],
+    nodes: Collection[str] = NODES,
 ) -> None:
-    """Start the bridge on this port, perception and decision, all in simulated time.
+    """Start these nodes in simulated time, the bridge on this port.
 
     `overrides` holds parameter values by node name, over those of the file.
     """
-    for node, package in NODES.items():
+    for node in nodes:
+        package = NODES[node]
         values = {"use_sim_time": True, **overrides.get(node, {})}
         if node == "bridge_node":
             values |= {"host": HOST, "port": port}

@@ -8,19 +8,27 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from rover_recorder.reader import FOLDER
+from rover_recorder.reader import FOLDER, Recording, open_recording
 from rover_tools.output import note
 from rover_tools.runner.graph import executable
 from rover_tools.runner.run import Run
 
 RECORDER = "recorder_node"
-READY_SECONDS = 30.0  # [s] for the node to start and to find the graph
 
 
 def recorder_command(folder: Path) -> list[str]:
     """The command that records the running graph into a folder."""
     value = json.dumps(str(folder.absolute()), ensure_ascii=False)
     return [executable("rover_recorder", RECORDER), "--ros-args", "-p", f"folder:={value}"]
+
+
+def load_recording(path: Path) -> Recording:
+    """Open the recording that a path names; salvaging it is told. As `open_recording` raises."""
+    opened = open_recording(path)
+    if opened.salvaged:
+        count = sum(opened.counts.values())
+        note(f"{opened.path}: its recorder was killed; salvaged {count} messages")
+    return opened
 
 
 @contextmanager
@@ -36,7 +44,7 @@ def recording(run: Run, wanted: bool = True) -> Iterator[None]:
     folder = run.folder / FOLDER
     shutil.rmtree(folder, ignore_errors=True)
     run.processes.start(RECORDER, recorder_command(folder))
-    run.watch.wait_ready([RECORDER], run.processes.check, READY_SECONDS)
+    run.wait_ready([RECORDER])
     run.processes.make_optional(RECORDER)  # a mission must not end with a full disk
     yield
     if run.processes.ended(RECORDER) is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rover_simulator.recordings.recording import Recording
 from rover_simulator.recordings.replay import Playback, play
@@ -25,8 +26,27 @@ OVERRIDES: dict[str, dict[str, object]] = {
 def replay(recording: Recording, run: Run, truth: Truth, in_flight: int, title: str) -> Result:
     """Play the recording into the running graph, score what it published, write the results."""
     playback = _play_with_progress(recording, run, in_flight)
+    track = np.array([(frame.pose.x, frame.pose.y) for frame in recording.frames])
+    last_stamp = round(playback.last_time * 1e9)
+    return write_replay(playback, last_stamp, track, run, truth, title, {})
+
+
+def write_replay(
+    playback: Playback,
+    last_stamp: int,
+    track: NDArray[np.float64],
+    run: Run,
+    truth: Truth,
+    title: str,
+    comparison: Result,
+) -> Result:
+    """Score what the graph published of a replay, and write the results.
+
+    last_stamp [ns]: of the last frame; track: positions (n, 2) [m]. `comparison` becomes a part of
+    the result.
+    """
     run.processes.check()
-    grid = run.watch.wait_map(round(playback.last_time * 1e9), MAP_SECONDS)
+    grid = run.watch.wait_map(last_stamp, MAP_SECONDS)
     rocks = run.watch.rocks()
     result = {
         "frames": playback.frames,
@@ -34,10 +54,10 @@ def replay(recording: Recording, run: Run, truth: Truth, in_flight: int, title: 
         "frames_per_second": round(playback.frames / playback.seconds, 1),
         "latency_ms_p50": percentile_ms(playback.latencies, 50),
         "latency_ms_p99": percentile_ms(playback.latencies, 99),
+        **comparison,
         **score(grid, rocks, truth),
         "counts": run.watch.counts(),
     }
-    track = np.array([(frame.pose.x, frame.pose.y) for frame in recording.frames])
     write_results(run.folder, result, grid, track, rocks, truth, title)
     return result
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,6 +27,10 @@ class Run:
     processes: Processes
     watch: GraphWatch
 
+    def wait_ready(self, nodes: Collection[str] = NODES) -> None:
+        """Until all these nodes are connected; raises GraphNotReadyError or ProcessDiedError."""
+        self.watch.wait_ready(list(nodes), self.processes.check, READY_SECONDS)
+
 
 @contextmanager
 def running_graph(
@@ -38,6 +42,22 @@ def running_graph(
 
     Raises DomainError, GraphNotReadyError or ProcessDiedError.
     """
+    with started_graph(folder, overrides, parameters_file) as run:
+        run.wait_ready()
+        yield run
+
+
+@contextmanager
+def started_graph(
+    folder: Path,
+    overrides: Mapping[str, Mapping[str, object]] | None = None,
+    parameters_file: Path | None = None,
+    nodes: Collection[str] = NODES,
+) -> Iterator[Run]:
+    """Start these nodes, which may lack a peer; everything ends with the block.
+
+    Raises DomainError.
+    """
     with reserved_domain() as domain_id:
         environment = {"ROS_DOMAIN_ID": str(domain_id), "ROS_LOG_DIR": str(folder / "log")}
         port = free_port()
@@ -46,7 +66,6 @@ def running_graph(
             GraphWatch(domain_id) as watch,
         ):
             parameters = parameters_file or default_parameters()
-            start_graph(processes, port, parameters, overrides or {})
+            start_graph(processes, port, parameters, overrides or {}, nodes)
             note(f"starting the graph; watch it with ROS_DOMAIN_ID={domain_id}")
-            watch.wait_ready(list(NODES), processes.check, READY_SECONDS)
             yield Run(folder, HOST, port, domain_id, processes, watch)

@@ -1,4 +1,4 @@
-"""`rover replay DIR`."""
+"""`rover replay RUN`."""
 
 from __future__ import annotations
 
@@ -8,31 +8,32 @@ from typing import TYPE_CHECKING
 import click
 
 from rover_common.command_line import Whole
-from rover_simulator.options import FILE, FOLDER
+from rover_simulator.options import FILE
 from rover_tools.cli.options import json_option, out_option, params_option
 from rover_tools.output import note, print_result, result_folder
 
 if TYPE_CHECKING:
     from rover_simulator.recordings.recording import YawConvention
 
+FILE_OR_FOLDER = click.Path(exists=True, path_type=Path)
 YAW_CONVENTIONS = ("ccw-from-east", "cw-from-north")
 
 
 @click.command("replay")
-@click.argument("recording", type=FOLDER, metavar="DIR")
+@click.argument("path", type=FILE_OR_FOLDER, metavar="RUN")
 @click.option("--truth", type=FILE, metavar="PNG",
               help="The true map, 200 x 200; non-zero is navigable.")  # fmt: skip
 @click.option("--samples", type=FILE, metavar="CSV",
               help="True positions of the rocks in view: x,y [m].")  # fmt: skip
 @click.option("--yaw-convention", type=click.Choice(YAW_CONVENTIONS), default=YAW_CONVENTIONS[0],
-              show_default=True, help="Convention of the log's yaw.")  # fmt: skip
+              show_default=True, help="Convention of the yaw in robot_log.csv.")  # fmt: skip
 @click.option("--in-flight", type=Whole(1, 3), default=2, show_default=True, metavar="N",
               help="Telemetries unanswered at a time.")  # fmt: skip
 @params_option
 @out_option
 @json_option
 def command(
-    recording: Path,
+    path: Path,
     truth: Path | None,
     samples: Path | None,
     yaw_convention: YawConvention,
@@ -41,24 +42,37 @@ def command(
     out: Path | None,
     as_json: bool,
 ) -> None:
-    """Play a recorded run over the wire through the graph, and score the map.
+    """Play a recorded run through the graph again, and score the map.
 
-    DIR holds robot_log.csv and its images in IMG, as the Unity simulator records them.
+    RUN is a recording in MCAP: the file, its folder, or the result folder of a mission. It is
+    played through perception and decision, and their map is compared with the recorded one, cell
+    for cell. Or RUN holds robot_log.csv and its images in IMG, as the Unity simulator records
+    them. It is played over the wire through the whole graph.
 
     \b
     Examples:
+      ./rover replay results/mission-20260101-120000-7
       ./rover replay test_dataset
       ./rover replay test_dataset --truth map_bw.png --samples samples.csv
     """
+    from rover_recorder.reader import find_recording
     from rover_simulator.recordings.recording import read_recording
     from rover_tools.evaluation.results import Truth, summary
+    from rover_tools.runner.recorded_run import recorded_run
+    from rover_tools.runner.recording import load_recording
     from rover_tools.runner.replay import OVERRIDES, replay
+    from rover_tools.runner.replay_recording import replay_recording
     from rover_tools.runner.run import running_graph
 
-    recorded = read_recording(recording, yaw_convention)
     known = Truth.load(truth, samples)
-    folder = result_folder("replay", out)
-    with running_graph(folder, OVERRIDES, params) as run:
-        result = replay(recorded, run, known, in_flight, str(recording))
+    if find_recording(path) is not None:
+        recording = recorded_run(load_recording(path))
+        folder = result_folder("replay", out)
+        result = replay_recording(recording, folder, params, known, in_flight)
+    else:
+        log = read_recording(path, yaw_convention)
+        folder = result_folder("replay", out)
+        with running_graph(folder, OVERRIDES, params) as run:
+            result = replay(log, run, known, in_flight, str(path))
     print_result(result, as_json, summary(result))
     note(f"replayed {result['frames']} frames; results in {folder}")
