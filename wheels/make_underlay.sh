@@ -11,14 +11,12 @@ numpy=$("$venv/bin/python" -c 'import numpy; print(numpy.get_include())')
   -e "s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$include#g" \
   -e "s#/opt/python/cp[0-9]+-cp[0-9]+/lib/python3\.[0-9]+/site-packages/numpy/_core/include#$numpy#g"
 
-# What is built here serves Python alone, through Fast DDS: code for C++ and for introspection, two
-# thirds of what the generators write and the compiler reads, is left out.
+# What is built here serves Python alone: code for C++, more than half of what the generators write
+# and nearly all that the compiler reads, is left out.
 share=$venv/share
 sed -i 's/^\( *\)ament_register_extension($/\1set(_not_generated/' \
-  "$share"/rosidl_typesupport_introspection_{c,cpp}/cmake/*-extras.cmake \
-  "$share"/rosidl_typesupport_{cpp,fastrtps_cpp}/cmake/*-extras.cmake \
+  "$share"/rosidl_typesupport{,_fastrtps,_introspection}_cpp/cmake/*-extras.cmake \
   "$share"/rosidl_generator_cpp/cmake/register_cpp.cmake
-rm -f "$share"/ament_index/resource_index/rosidl_typesupport_c/rosidl_typesupport_introspection_c
 
 # colcon chains the underlay's setup files; the wheels bring none.
 cat > "$venv/local_setup.sh" <<EOF
