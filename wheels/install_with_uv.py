@@ -67,19 +67,23 @@ def link_mode(cache: Path, environment: Path) -> str:
     return "hardlink" if existing.stat().st_dev == environment.stat().st_dev else "copy"
 
 
+def output_of(*command: str) -> str:
+    return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
 def main(lock: Path) -> int:
     """Returns the exit code."""
     pinned = re.search(r"^uv==\S+", lock.read_text(), re.MULTILINE)
     if pinned is None:
         return 1
     uv = str(Path(sys.prefix) / "bin" / "uv")
-    listing = subprocess.run([*PIP, "config", "list"], check=True, text=True, stdout=subprocess.PIPE)
-    settings = pip_settings(listing.stdout)
-    subprocess.run([*PIP, "install", "--no-input", "--no-compile", "--no-deps", pinned[0]], check=True)
+    settings = pip_settings(output_of(*PIP, "config", "list"))
+    install = (*PIP, "install", "--no-input", "--no-compile", "--no-deps")
+    subprocess.run([*install, pinned[0]], check=True)
     # What the user has set for uv itself takes precedence.
     environment = {**uv_environment(settings), **os.environ, "VIRTUAL_ENV": sys.prefix}
-    cache = subprocess.run([uv, "cache", "dir"], check=True, text=True, stdout=subprocess.PIPE)
-    environment.setdefault("UV_LINK_MODE", link_mode(Path(cache.stdout.strip()), Path(sys.prefix)))
+    cache = Path(output_of(uv, "cache", "dir").strip())
+    environment.setdefault("UV_LINK_MODE", link_mode(cache, Path(sys.prefix)))
     command = [uv, "pip", "install", "--no-deps", *uv_flags(settings), "-r", str(lock)]
     return subprocess.run(command, env=environment).returncode
 

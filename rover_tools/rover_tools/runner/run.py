@@ -39,7 +39,7 @@ def running_graph(
     Raises DomainError, GraphNotReadyError or ProcessDiedError.
     """
     with reserved_domain() as domain_id:
-        environment = {"ROS_DOMAIN_ID": str(domain_id), "ROS_LOG_DIR": str(folder / "log")}
+        environment = {"ROS_DOMAIN_ID": str(domain_id)}
         port = free_port()
         with (
             Processes(folder / "log", environment) as processes,
