@@ -21,9 +21,13 @@ class TruthError(RoverError, ValueError):
 def load_truth(path: Path) -> NDArray[np.bool_]:
     """Ground truth (200, 200): pixel [y, x] of the file, unflipped, non-zero = navigable.
 
-    Raises TruthError when the file is no image of that size.
+    Raises TruthError when there is no file, or no image of that size in it.
     """
-    image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    try:
+        content = np.fromfile(path, np.uint8)
+    except OSError as error:  # cv2.imread would print a warning of its own
+        raise TruthError(f"{path}: {error.strerror or error}") from error
+    image = cv2.imdecode(content, cv2.IMREAD_GRAYSCALE) if content.size else None
     if image is None:
         raise TruthError(f"{path}: not an image")
     rows, cols = image.shape

@@ -51,6 +51,9 @@ def test_replay(tmp_path):
     assert pgm.shape == (200, 200)
     assert np.count_nonzero(pgm == 254) > 20
     assert (out / "worldmap.yaml").exists()
+    logs = {path.name: path.read_text() for path in (out / "log").iterdir()}
+    assert set(logs) == {"bridge_node.log", "perception_node.log", "decision_node.log"}
+    assert "listening on" in logs["bridge_node.log"]
 
 
 def test_replay_of_nothing_is_one_sentence(tmp_path):

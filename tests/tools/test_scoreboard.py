@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import pickle
 from contextlib import nullcontext
+from types import SimpleNamespace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from tqdm import tqdm
 from rover_common.geometry import Pose
 from rover_simulator.world.generator import world_of_map
 from rover_simulator.world.world import World
+from rover_tools import progress
 from rover_tools.cli.commands import scoreboard as command
 from rover_tools.cli.main import main
 from rover_tools.evaluation.mission_result import (
@@ -21,6 +24,7 @@ from rover_tools.evaluation.mission_result import (
     MissionRun,
     mission_result,
 )
+from rover_tools.scoreboard import cluster
 from rover_tools.scoreboard import run as scoreboard
 from rover_tools.scoreboard.errors import ScoreboardError
 from rover_tools.scoreboard.job import Ground, Job, make_jobs
@@ -154,10 +158,11 @@ def made_up(monkeypatch):
     monkeypatch.setattr(tqdm, "monitor_interval", 0)  # its thread would outlive the test
     asked: list[str] = []
 
-    def run_all(_, jobs, on_start):
+    def run_all(_, jobs, on_start, while_waiting):
         on_start("the first missions have started")
         for job in jobs:
             asked.append(job.name)
+            while_waiting()
             good = job.seed != 2
             yield job, CompletedMission(row_of(job), PICTURE) if good else ValueError("too steep")
 
@@ -190,6 +195,34 @@ def test_a_second_run_runs_failed_and_new_missions_only(tmp_path, made_up, capsy
     output = capsys.readouterr()
     assert [row["seed"] for row in json.loads(output.out)] == [1]  # what was asked for
     assert "1 missions, 1 already completed" in output.err
+
+
+def test_progress_is_shown_while_no_mission_is_over(tmp_path, made_up, capsys, monkeypatch):
+    monkeypatch.setattr(progress, "LINE_SECONDS", 0.0)
+    assert main(["scoreboard", "--worlds", "1,3", "--out", str(tmp_path)]) == 0
+    shown = [line for line in capsys.readouterr().err.splitlines() if "completed " in line]
+    assert [line.split("completed ")[1] for line in shown] == [
+        f"{completed}/2 missions" for completed in (0, 1, 1, 2)
+    ]
+
+
+def test_waiting_for_missions_is_interrupted_every_second(monkeypatch):
+    job = job_of()
+    future = Mock(**{"exception.return_value": None, "result.return_value": "over"})
+    client = Mock(**{"submit.return_value": future, "nthreads.return_value": {}})
+    answers = [TimeoutError, TimeoutError, SimpleNamespace(done={future})]
+
+    def wait(*_):
+        answer = answers.pop(0)
+        if isinstance(answer, type):
+            raise answer
+        return answer
+
+    monkeypatch.setattr(cluster, "wait", wait)
+    ticks: list[int] = []
+    outcomes = cluster.run_all(client, [job], while_waiting=lambda: ticks.append(len(answers)))
+    assert list(outcomes) == [(job, "over")]
+    assert ticks == [2, 1, 0]
 
 
 def test_the_table_is_printed(tmp_path, made_up, capsys):

@@ -64,7 +64,7 @@ def test_truth_is_read_unflipped(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["missing", "text", "small", "black"])
-def test_a_bad_truth_is_one_clear_error(tmp_path, kind):
+def test_a_bad_truth_is_one_clear_error(tmp_path, kind, capfd):
     path = tmp_path / "map.png"
     if kind == "text":
         path.write_text("no picture")
@@ -73,3 +73,4 @@ def test_a_bad_truth_is_one_clear_error(tmp_path, kind):
         cv2.imwrite(str(path), np.zeros((size, size), np.uint8))
     with pytest.raises(TruthError, match=r"map\.png"):
         load_truth(path)
+    assert capfd.readouterr().err == ""  # also nothing of OpenCV's own

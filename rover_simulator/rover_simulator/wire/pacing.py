@@ -33,7 +33,7 @@ class Pacing(Protocol):
 
 def run_connected(client: UnityClient, pacing: Pacing, ended: Ended) -> None:
     """Connect, and connect again whenever the connection is lost, until the end."""
-    while client.connect_until(ended, pacing.while_disconnected):
+    while _connect(client, pacing, ended):
         try:
             pacing.run(client, ended)
         except (ConnectionLostError, ProtocolError) as error:
@@ -42,6 +42,20 @@ def run_connected(client: UnityClient, pacing: Pacing, ended: Ended) -> None:
         else:
             client.close(graceful=True)
             return
+
+
+def _connect(client: UnityClient, pacing: Pacing, ended: Ended) -> bool:
+    """Whether it was connected before the end; says once that there is no server yet."""
+    told = False
+
+    def wait() -> None:
+        nonlocal told
+        if not told:
+            told = True
+            print(f"rover sim: no server on {client.address}; waiting for one", file=sys.stderr)
+        pacing.while_disconnected()
+
+    return client.connect_until(ended, wait)
 
 
 class LockstepPacing:

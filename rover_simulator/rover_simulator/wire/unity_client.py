@@ -52,6 +52,7 @@ class UnityClient:
     """One connection; no thread of its own, so `receive` has to be called for pings to be sent."""
 
     def __init__(self, host: str, port: int) -> None:
+        self.address = f"{host}:{port}"
         self._url = f"ws://{host}:{port}/socket.io/?EIO=4&transport=websocket"
         self._socket: websocket.WebSocket | None = None
         self._next_ping: float | None = None

@@ -58,11 +58,21 @@ def start_graph(
         values = {"use_sim_time": True, **overrides.get(node, {})}
         if node == "bridge_node":
             values |= {"host": HOST, "port": port}
-        command = [executable(package, node), "--ros-args"]
-        command += ["--params-file", str(parameters_file)]
-        for name, value in values.items():
-            command += ["-p", f"{name}:={_yaml_scalar(value)}"]
-        processes.start(node, command)
+        processes.start(node, node_command(package, node, parameters_file, values))
+
+
+def node_command(
+    package: str, node: str, parameters_file: Path, values: Mapping[str, object]
+) -> list[str]:
+    """What starts a node with these parameters over those of the file.
+
+    Its output is its log: a file of ROS with the same text is not written.
+    """
+    command = [executable(package, node), "--ros-args", "--disable-external-lib-logs"]
+    command += ["--params-file", str(parameters_file)]
+    for name, value in values.items():
+        command += ["-p", f"{name}:={_yaml_scalar(value)}"]
+    return command
 
 
 def _yaml_scalar(value: object) -> str:

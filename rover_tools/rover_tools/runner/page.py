@@ -10,7 +10,7 @@ from pathlib import Path
 from rover_common.errors import RoverError
 from rover_dashboard.config import DashboardConfig
 from rover_tools.output import note
-from rover_tools.runner.graph import DASHBOARD, HOST, executable, free_port
+from rover_tools.runner.graph import DASHBOARD, HOST, free_port, node_command
 from rover_tools.runner.run import Run
 
 LISTENING_SECONDS = 30.0  # [s] for the node to start
@@ -28,9 +28,10 @@ def start_page(run: Run, parameters_file: Path, open_page: bool) -> str:
     shows it with `open_page`. Raises PageError or ProcessDiedError.
     """
     port = free_port(DashboardConfig().port)
-    command = [executable("rover_dashboard", DASHBOARD), "--ros-args"]
-    command += ["--params-file", str(parameters_file), "-p", f"host:={HOST}", "-p", f"port:={port}"]
-    run.processes.start(DASHBOARD, command)
+    values = {"host": HOST, "port": port}
+    run.processes.start(
+        DASHBOARD, node_command("rover_dashboard", DASHBOARD, parameters_file, values)
+    )
     address = f"http://{HOST}:{port}/"
     _wait_listening(run, port)
     run.processes.make_optional(DASHBOARD)  # a mission must not end with its page

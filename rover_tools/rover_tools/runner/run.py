@@ -59,7 +59,7 @@ def started_graph(
     Raises DomainError.
     """
     with reserved_domain() as domain_id:
-        environment = {"ROS_DOMAIN_ID": str(domain_id), "ROS_LOG_DIR": str(folder / "log")}
+        environment = {"ROS_DOMAIN_ID": str(domain_id)}
         port = free_port()
         with (
             Processes(folder / "log", environment) as processes,

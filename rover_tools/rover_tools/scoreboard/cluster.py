@@ -9,13 +9,14 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 
 import dask
-from distributed import Client, LocalCluster, as_completed
+from distributed import Client, Future, LocalCluster, wait
 
 from rover_tools.scoreboard.errors import ScoreboardError
 from rover_tools.scoreboard.job import Job
 from rover_tools.scoreboard.mission_run import CompletedMission, run_job
 
 CONNECT_SECONDS = 10.0  # [s] for the scheduler to answer
+TICK_SECONDS = 1.0  # [s] between two calls while all missions go on
 HOST = "127.0.0.1"
 # Dask has each worker's memory trimmed all the time, for tasks on data frames. A rendered frame's
 # arrays would be asked from the system anew each time, which costs a tenth of a mission's time.
@@ -69,18 +70,29 @@ def run_all(
     jobs: Sequence[Job],
     run: RunJob = run_job,
     on_start: Callable[[str], object] = lambda _: None,
+    while_waiting: Callable[[], object] = lambda: None,
 ) -> Iterator[tuple[Job, Outcome]]:
     """Run all jobs; each is yielded as soon as it is over, with the error if it raised one.
 
-    `on_start` is called with a sentence when the first job runs.
+    `on_start` is called with a sentence when the first job runs, `while_waiting` every second.
     """
     # Not pure: the result of an earlier job of the same name must not be taken for it.
     futures = {client.submit(run, job, pure=False): job for job in jobs}
     client.wait_for_workers(1)
     on_start(f"the first missions have started; workers: {len(client.nthreads())}")
-    for future in as_completed(list(futures)):
-        error = future.exception()
-        yield futures.pop(future), future.result() if error is None else error
+    while futures:
+        for future in _completed(list(futures)):
+            error = future.exception()
+            yield futures.pop(future), future.result() if error is None else error
+        while_waiting()
+
+
+def _completed(futures: Sequence[Future]) -> set[Future]:
+    """Those that are over, once there is one; none of them after a while."""
+    try:
+        return wait(futures, TICK_SECONDS, "FIRST_COMPLETED").done
+    except TimeoutError:
+        return set()
 
 
 @contextmanager

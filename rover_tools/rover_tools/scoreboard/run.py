@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ from tqdm import tqdm
 
 from rover_tools.evaluation.results import Result
 from rover_tools.output import note, print_result
+from rover_tools.progress import Progress
 from rover_tools.scoreboard.cluster import Outcome, cluster, run_all
 from rover_tools.scoreboard.errors import ScoreboardError
 from rover_tools.scoreboard.job import Job
@@ -54,15 +56,21 @@ def run_scoreboard(jobs: Sequence[Job], folder: Path, engine: Engine, as_json: b
 
 
 def _run(engine: Engine, store: Store, missing: Sequence[Job], total: int) -> None:
+    start = time.monotonic()
     with (
         cluster(engine.scheduler, engine.workers, len(missing)) as client,
-        tqdm(total=total, initial=total - len(missing), unit="mission", disable=None) as bar,
+        Progress(total, "missions") as progress,
     ):
-        bar.refresh()
+        completed = total - len(missing)
+
+        def show() -> None:
+            progress.show(completed, f"{time.monotonic() - start:.0f} s, completed")
+
         try:
-            for job, outcome in run_all(client, missing, on_start=note):
+            for job, outcome in run_all(client, missing, on_start=note, while_waiting=show):
                 _keep(store, job, outcome)
-                bar.update()
+                completed += 1
+                show()
         except KeyboardInterrupt:
             note("stopping; the missions in progress are lost")
             raise
