@@ -10,7 +10,7 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from scoreboard_rows import PICTURE, job_of, row_of
+from scoreboard_rows import FILES, job_of, row_of
 from tqdm import tqdm
 
 from rover_common.geometry import Pose
@@ -96,10 +96,10 @@ def test_only_what_is_missing_is_left(tmp_path):
     jobs = [job_of(seed=seed) for seed in (1, 2, 3)]
     store = Store(tmp_path)
     assert store.missing(jobs) == jobs
-    store.add(jobs[0], row_of(jobs[0]), PICTURE)
+    store.add(jobs[0], row_of(jobs[0]), FILES)
     store.add(jobs[1], failed_row(jobs[1], RuntimeError("no way")), None)
     assert store.missing(jobs) == jobs[1:]  # what failed is tried again
-    store.add(jobs[1], row_of(jobs[1]), PICTURE)
+    store.add(jobs[1], row_of(jobs[1]), FILES)
     assert store.missing(jobs) == jobs[2:]
     assert [entry.name for entry in store.entries()] == [job.name for job in jobs[:2]]
 
@@ -121,7 +121,7 @@ def test_a_file_that_was_being_written_does_not_count(tmp_path):
 )
 def test_missions_of_other_settings_are_not_mixed(tmp_path, other):
     store = Store(tmp_path)
-    store.add(job_of(), row_of(job_of()), PICTURE)
+    store.add(job_of(), row_of(job_of()), FILES)
     with pytest.raises(ScoreboardError, match="choose another --out"):
         store.missing([other])
 
@@ -164,7 +164,7 @@ def made_up(monkeypatch):
             asked.append(job.name)
             while_waiting()
             good = job.seed != 2
-            yield job, CompletedMission(row_of(job), PICTURE) if good else ValueError("too steep")
+            yield job, CompletedMission(row_of(job), FILES) if good else ValueError("too steep")
 
     monkeypatch.setattr(scoreboard, "cluster", lambda *_: nullcontext())
     monkeypatch.setattr(scoreboard, "run_all", run_all)

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from html.parser import HTMLParser
-
 import pytest
-from scoreboard_rows import PICTURE, entry_of, failed_entry, job_of, row_of
+from scoreboard_rows import entry_of, failed_entry, job_of, row_of
 
 from rover_tools.scoreboard.job import Ground
-from rover_tools.scoreboard.mission_run import failed_row
-from rover_tools.scoreboard.report import write_report
-from rover_tools.scoreboard.store import Store
 from rover_tools.scoreboard.table import Share, Spread, as_text, is_home, summaries
 
 # The table
@@ -75,43 +70,3 @@ def test_groups_are_apart():
 
 
 # The report
-
-
-class Page(HTMLParser):
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.links: list[str] = []
-        self.text = ""
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        self.links += [value for key, value in attributes if key in ("src", "href")]
-
-    def handle_data(self, data):
-        self.text += data
-
-
-def test_the_report_has_every_mission_and_its_picture_and_nothing_from_outside(tmp_path):
-    store = Store(tmp_path)
-    jobs = [job_of("tour"), job_of("frontier+bearing", seed=2)]
-    for job in jobs:
-        store.add(job, row_of(job), PICTURE)
-    bad = job_of(seed=3)
-    store.add(bad, failed_row(bad, RuntimeError("lost <its> way")), None)
-    entries = store.entries()
-    write_report(tmp_path, entries, summaries(entries))
-    text = (tmp_path / "report.html").read_text()
-    page = Page(text)
-    for name in ("seed-1", "seed-2", "seed-3", "failed: RuntimeError: lost <its> way"):
-        assert name in page.text
-    assert "100 %)" in page.text
-    assert len(page.links) == 4  # a picture and the link to it, of two missions
-    for link in page.links:
-        path = tmp_path / link.replace("%2B", "+")
-        assert path.is_file(), link
-    assert "http" not in text
-
-
-def test_an_empty_report(tmp_path):
-    write_report(tmp_path, [], [])
-    assert "0 missions" in (tmp_path / "report.html").read_text()

@@ -50,6 +50,7 @@ ROSDEP_KEYS = {
     "dask": "python3-distributed-pip",
     "distributed": "python3-distributed-pip",
     "jinja2": "python3-jinja2",
+    "av": "python3-av-pip",
     "networkx": "python3-networkx",
     "tabulate": "python3-tabulate",
     "socketio": "python3-socketio",

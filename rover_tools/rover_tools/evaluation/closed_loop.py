@@ -68,6 +68,7 @@ class Loop:
         simulation.crop_images(first_row_read)
         self.perception = Perception(perception or PerceptionConfig())
         self.core = core or make_core(decision or DecisionConfig(), lockstep=True)
+        self.frame: Frame | None = None  # the newest that was decided on
         self._run = FIRST_RUN
         self._stamp = -1
         self._rocks: tuple[RockTrack, ...] = ()
@@ -106,15 +107,14 @@ class Loop:
         stamp, pose = self._stamp, _through_message(telemetry.pose)
         seen = self.perception.process(CameraFrame(stamp, pose, telemetry.image, self._run))
         self._rocks = seen.rocks
-        decision = self.core.step(
-            Frame(
-                vehicle=self._vehicle_of(stamp, pose, telemetry),
-                nav=seen.nav,
-                scan=_scan_through_message(seen.scan),
-                rocks=seen.rocks,
-                map_stamp=seen.map_stamp,
-            )
+        self.frame = Frame(
+            vehicle=self._vehicle_of(stamp, pose, telemetry),
+            nav=seen.nav,
+            scan=_scan_through_message(seen.scan),
+            rocks=seen.rocks,
+            map_stamp=seen.map_stamp,
         )
+        decision = self.core.step(self.frame)
         if seen.map_stamp == stamp:
             self.core.give_map(stamp, self.perception.navigation_map())
         if decision.command.new_run:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import io
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import cv2
 
+from rover_decision.types import Decision
 from rover_simulator.run import frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
 from rover_simulator.world.world import World
 from rover_tools.evaluation.closed_loop import Loop, LoopResult
-from rover_tools.evaluation.map_files import draw_map
 from rover_tools.evaluation.mission_result import (
     RESULT_KEYS,
     MissionRun,
@@ -23,17 +23,21 @@ from rover_tools.evaluation.mission_result import (
 from rover_tools.evaluation.oracle.tour import oracle_tour
 from rover_tools.evaluation.results import Result
 from rover_tools.evaluation.strategy import Strategy
+from rover_tools.report.mission_log import LogBuilder, Moment, track_csv
+from rover_tools.report.mission_page import mission_map, mission_page
 from rover_tools.scoreboard.job import Job
 
 ROW_KEYS = (*RESULT_KEYS, "oracle_time")
 
+Files = Mapping[str, bytes]  # contents by suffix
+
 
 @dataclass(frozen=True)
 class CompletedMission:
-    """A mission that ended, with its picture."""
+    """A mission that ended, with what it leaves to look at."""
 
     result: Result
-    picture: bytes  # PNG
+    files: Files  # its map as .svg, its track as .csv, its report as .html
 
 
 def run_job(job: Job) -> CompletedMission:
@@ -43,8 +47,9 @@ def run_job(job: Job) -> CompletedMission:
     world = job.world()
     simulation = Simulation(world, job.seed, frame_steps_of(job.fps))
     loop = Loop(simulation, Strategy.parse(job.strategy).config())
+    log = LogBuilder(truth_of(world))
     try:
-        end = loop.run(START_TIME + job.time_limit)
+        end = loop.run(START_TIME + job.time_limit, lambda decision: _add(log, loop, decision))
     finally:
         loop.close()
     run = MissionRun(
@@ -60,7 +65,7 @@ def run_job(job: Job) -> CompletedMission:
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
     result["oracle_time"] = round(oracle_tour(world).seconds, 1)
-    return CompletedMission(result, _picture(world, end, result))
+    return CompletedMission(result, _files(world, end, result, log))
 
 
 def failed_row(job: Job, error: BaseException) -> Result:
@@ -69,9 +74,26 @@ def failed_row(job: Job, error: BaseException) -> Result:
     return failed_result(job.world_name, job.strategy, job.seed, why) | {"oracle_time": None}
 
 
-def _picture(world: World, end: LoopResult, result: Result) -> bytes:
-    title = f"{world.name}, {result['strategy']}: {result['reason']} after {result['time']} s"
-    file = io.BytesIO()
-    truth = truth_of(world)
-    draw_map(file, end.world_map, end.track, end.rocks, truth.navigable, truth.samples, title)
-    return file.getvalue()
+def _add(log: LogBuilder, loop: Loop, decision: Decision) -> None:
+    frame, progress = loop.frame, decision.progress
+    assert frame is not None
+    moment = Moment(
+        progress.elapsed,
+        frame.pose,
+        frame.speed,
+        decision.state.name,
+        decision.reason,
+        progress.samples_collected,
+        progress.home_distance,
+        progress.distance,
+    )
+    log.add(moment, loop.perception.world_map)
+
+
+def _files(world: World, end: LoopResult, result: Result, builder: LogBuilder) -> Files:
+    log = builder.log(f"{world.name}, {result['strategy']}", end.world_map, end.rocks, result)
+    return {
+        ".svg": mission_map(log).encode(),
+        ".csv": track_csv(log.track).encode(),
+        ".html": mission_page(log).encode(),
+    }

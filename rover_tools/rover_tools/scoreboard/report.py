@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
+from rover_tools.report.pages import render
+from rover_tools.scoreboard.scatter import KINDS, scatter_of
 from rover_tools.scoreboard.store import Entry, write_whole
 from rover_tools.scoreboard.table import (
     LEGEND,
@@ -20,17 +20,11 @@ REPORT = "report.html"
 
 
 def write_report(folder: Path, entries: Sequence[Entry], rows: Sequence[Summary]) -> None:
-    """Write report.html; its pictures are links into the folder."""
-    environment = Environment(
-        loader=PackageLoader("rover_tools.scoreboard", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    tests = {"home": is_home, "with_all_samples": has_all_samples}
-    page = environment.get_template("report.html.j2").render(
+    """Write report.html; its pictures and the missions' reports are links into the folder."""
+    page = render(
+        "rover_tools.scoreboard", "scoreboard.html.j2",
         rows=[row.cells() for row in rows], legend=LEGEND, entries=entries,
-        ratio=oracle_ratio, **tests,
+        scatter=scatter_of(entries), kinds=KINDS,
+        ratio=oracle_ratio, home=is_home, with_all_samples=has_all_samples,
     )  # fmt: skip
     write_whole(folder / REPORT, page.encode())

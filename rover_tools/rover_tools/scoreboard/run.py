@@ -79,10 +79,9 @@ def _run(engine: Engine, store: Store, missing: Sequence[Job], total: int) -> No
 def _keep(store: Store, job: Job, outcome: Outcome) -> None:
     """Write a mission's outcome into the folder, and print a line about it."""
     if isinstance(outcome, CompletedMission):
-        result, picture = outcome.result, outcome.picture
+        store.add(job, result := outcome.result, outcome.files)
     else:
-        result, picture = failed_row(job, outcome), None
-    store.add(job, result, picture)
+        store.add(job, result := failed_row(job, outcome), None)
     with tqdm.external_write_mode():
         note(_line(result))
 

@@ -1,10 +1,10 @@
-"""The result folder: one JSON file and one picture per mission, written when it is over."""
+"""The result folder: a JSON file, map, track and report per mission, written when it is over."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -33,7 +33,12 @@ class Entry:
     @property
     def picture(self) -> str | None:
         """Relative to the result folder."""
-        return None if self.failed else f"{MISSIONS}/{self.name}.png"
+        return None if self.failed else f"{MISSIONS}/{self.name}.svg"
+
+    @property
+    def report(self) -> str | None:
+        """Relative to the result folder."""
+        return None if self.failed else f"{MISSIONS}/{self.name}.html"
 
 
 class Store:
@@ -65,12 +70,15 @@ class Store:
                 missing.append(job)
         return missing
 
-    def add(self, job: Job, result: Result, picture: bytes | None) -> None:
-        """Write one mission; the JSON file comes last, so that it marks a complete one."""
+    def add(self, job: Job, result: Result, files: Mapping[str, bytes] | None) -> None:
+        """Write one mission, with its files by their suffixes; None for one that failed.
+
+        The JSON file comes last, so that it marks a complete one.
+        """
         path = self.folder / MISSIONS / f"{job.name}.json"
-        if picture is not None:
-            write_whole(path.with_suffix(".png"), picture)
-        content = {"settings": job.settings(), "failed": picture is None, "result": result}
+        for suffix, data in (files or {}).items():
+            write_whole(path.with_name(job.name + suffix), data)
+        content = {"settings": job.settings(), "failed": files is None, "result": result}
         write_whole(path, (json.dumps(content, indent=2) + "\n").encode())
 
 

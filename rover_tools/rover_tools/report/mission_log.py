@@ -1,0 +1,164 @@
+"""A mission over time: one point of the track a second, and every change of state."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, fields
+
+from rover_common.geometry import Pose
+from rover_common.map_encoding import navigable_cells
+from rover_common.types import GridMap, RockTrack
+from rover_tools.evaluation.results import Result, Truth
+from rover_tools.evaluation.scoring import score_map
+
+TRACK_FILE = "track.csv"
+PERIOD = 1.0  # [s] between two points of the track
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The rover and its mission at one frame."""
+
+    time: float  # [s] since the mission's first frame
+    pose: Pose
+    speed: float  # [m/s] forward positive
+    state: str
+    reason: str
+    samples: int  # collected so far
+    home_distance: float  # [m] straight line to the start
+    distance: float  # [m] driven
+
+
+@dataclass(frozen=True)
+class TrackPoint:
+    """One row of track.csv."""
+
+    time: float  # [s] since the mission's first frame
+    x: float  # [m] map frame
+    y: float  # [m]
+    yaw: float  # [rad]
+    roll: float  # [rad]
+    pitch: float  # [rad]
+    tilt: float  # [rad] of the body against the vertical, the largest since the row before
+    speed: float  # [m/s] forward positive
+    state: str
+    samples: int  # collected so far
+    home_distance: float  # [m]
+    distance: float  # [m] driven
+    mapped_area: float | None  # [m^2] navigable ground on the map
+    percent_mapped: float | None  # [%] of the true ground, where a truth is known
+    fidelity: float | None  # [%]
+
+
+@dataclass(frozen=True)
+class StateChange:
+    """The mission enters a state."""
+
+    time: float  # [s]
+    state: str
+    reason: str
+    x: float  # [m]
+    y: float  # [m]
+
+
+@dataclass(frozen=True)
+class MissionLog:
+    """All that a mission's report shows."""
+
+    title: str
+    track: tuple[TrackPoint, ...]
+    changes: tuple[StateChange, ...]
+    grid: GridMap | None  # the last map
+    rocks: tuple[RockTrack, ...]
+    truth: Truth
+    result: Result
+
+
+class LogBuilder:
+    """Takes every frame of a mission, keeps what its log needs."""
+
+    def __init__(self, truth: Truth, period: float = PERIOD) -> None:
+        """period [s]: between two points of the track."""
+        self._truth = truth
+        self._period = period
+        self._track: list[TrackPoint] = []
+        self._changes: list[StateChange] = []
+        self._next = -math.inf  # [s] when a point is due
+        self._tilt = 0.0
+        self._last: tuple[Moment, Callable[[], GridMap | None]] | None = None
+
+    def add(self, moment: Moment, grid: Callable[[], GridMap | None]) -> None:
+        """Add the next frame; `grid` gives the world map and is called only for a point."""
+        self._tilt = max(self._tilt, tilt_of(moment.pose))
+        if not self._changes or self._changes[-1].state != moment.state:
+            place = moment.pose
+            change = StateChange(moment.time, moment.state, moment.reason, place.x, place.y)
+            self._changes.append(change)
+        self._last = moment, grid
+        if moment.time >= self._next - 1e-6:
+            self._next = self._period * (math.floor(moment.time / self._period + 1e-6) + 1)
+            self._add_point()
+
+    def log(
+        self, title: str, grid: GridMap | None, rocks: tuple[RockTrack, ...], result: Result
+    ) -> MissionLog:
+        """The whole log; its track ends with the last frame and the last map."""
+        if self._last is not None:
+            moment = self._last[0]
+            self._last = moment, lambda: grid
+            if self._track[-1].time == moment.time:
+                self._tilt = self._track.pop().tilt
+            self._add_point()
+        track, changes = tuple(self._track), tuple(self._changes)
+        return MissionLog(title, track, changes, grid, rocks, self._truth, result)
+
+    def _add_point(self) -> None:
+        assert self._last is not None
+        moment, grid = self._last
+        self._track.append(_point_of(moment, self._tilt, grid(), self._truth))
+        self._tilt = 0.0
+
+
+def tilt_of(pose: Pose) -> float:
+    """The angle [rad] between the body's z axis and the vertical."""
+    return math.acos(min(1.0, math.cos(pose.roll) * math.cos(pose.pitch)))
+
+
+def track_csv(track: Sequence[TrackPoint]) -> str:
+    """The content of track.csv; a value that is not known is an empty field."""
+    file = io.StringIO()
+    writer = csv.DictWriter(file, [each.name for each in fields(TrackPoint)], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(asdict(point) for point in track)
+    return file.getvalue()
+
+
+def _point_of(moment: Moment, tilt: float, grid: GridMap | None, truth: Truth) -> TrackPoint:
+    area = mapped = fidelity = None
+    if grid is not None:
+        navigable = navigable_cells(grid.cells)
+        area = float(navigable.sum()) * grid.resolution**2
+        if truth.navigable is not None:
+            scores = score_map(navigable, truth.navigable)
+            mapped, fidelity = round(scores.percent_mapped, 2), round(scores.fidelity, 2)
+    pose = moment.pose
+    return TrackPoint(
+        time=round(moment.time, 3),
+        x=round(pose.x, 3),
+        y=round(pose.y, 3),
+        yaw=round(pose.yaw, 4),
+        roll=round(pose.roll, 4),
+        pitch=round(pose.pitch, 4),
+        tilt=round(tilt, 4),
+        speed=round(moment.speed, 3),
+        state=moment.state,
+        samples=moment.samples,
+        home_distance=round(moment.home_distance, 2),
+        distance=round(moment.distance, 2),
+        mapped_area=area,
+        percent_mapped=mapped,
+        fidelity=fidelity,
+    )

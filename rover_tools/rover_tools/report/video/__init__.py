@@ -1,0 +1,1 @@
+"""A mission as a video: camera, vision and map side by side."""
