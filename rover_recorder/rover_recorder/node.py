@@ -11,6 +11,7 @@ import os
 import signal
 import sys
 import time
+from collections.abc import Callable
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -65,8 +66,9 @@ class RecorderNode(Node):
         config = declare_parameters(self, RecorderConfig)
         self.writer = RecordingWriter(bag.file_of(Path(config.folder or _new_folder())))
         self.failure: OSError | None = None  # the recording has ended with it
-        self._recorded: dict[str, Subscription] = {}
+        self._recorded: dict[str, Subscription] = {}  # by the name of the recorded topic
         self._left_out: set[str] = set()  # topics that cannot be recorded
+        self._seen: set[str] = set()  # image topics whose `/compressed` one may come yet
         peers = {name: partial(self._records, needed) for name, needed in NEEDED.items()}
         self._diagnostics = NodeDiagnostics(self, peers)
         wall = Clock(clock_type=ClockType.STEADY_TIME)
@@ -82,7 +84,8 @@ class RecorderNode(Node):
         if hasattr(self, "writer") and self.failure is None:
             self._try(self.writer.close)
             self.get_logger().info(
-                f"recorded {self.writer.messages} messages of {self.writer.topics} topics"
+                f"recorded {sum(self.writer.counts.values())} messages of "
+                f"{len(self._recorded)} topics"
             )
         super().destroy_node()
 
@@ -91,41 +94,41 @@ class RecorderNode(Node):
         found = dict(self.get_topic_names_and_types())
         for name, (kind, *others) in found.items():
             hidden = any(part.startswith("_") for part in name.split("/"))
-            known = name in self._recorded or name in self._left_out
-            if known or hidden or others or self.failure is not None:
+            recorded = f"{name}/compressed" if kind == IMAGE else name
+            if hidden or others or recorded in self._recorded or recorded in self._left_out:
                 continue
-            if kind == IMAGE and f"{name}/compressed" in found:
+            if kind == IMAGE and (recorded in found or name not in self._seen):
+                self._seen.add(name)
                 continue
             try:
-                self._subscribe(name, kind)
+                self._subscribe(name, kind, recorded)
             except RecordingError as error:
-                self._left_out.add(name)
+                self._left_out.add(recorded)
                 self.get_logger().warning(f"{name} is not recorded: {error}")
 
-    def _subscribe(self, name: str, kind: str) -> None:
+    def _subscribe(self, name: str, kind: str, recorded: str) -> None:
         publishers = self.get_publishers_info_by_topic(name)
-        if not publishers:
-            return  # not yet, or no longer
+        if not publishers or self.failure is not None:
+            return
         offered = [publisher.qos_profile for publisher in publishers]
-        written = COMPRESSED if kind == IMAGE else kind
+        recorded_kind = COMPRESSED if kind == IMAGE else kind
         topic = Topic(
-            name=f"{name}/compressed" if kind == IMAGE else name,
-            type=written,
-            definition=definition(written),
+            name=recorded,
+            type=recorded_kind,
+            definition=definition(recorded_kind),
             qos=tuple(qos_words(profile) for profile in offered),
             type_hash="" if kind == IMAGE else str(publishers[0].topic_type_hash),
         )
         self.writer.add_topic(topic)
+        callback: Callable[..., None] = self._on_message
         if kind == IMAGE:
-            callback = partial(self._on_picture, topic.name)
+            callback = self._on_picture
         elif begins_with_stamp(topic.definition):
-            callback = partial(self._on_stamped, topic.name)
-        else:
-            callback = partial(self._on_message, topic.name)
-        profile = subscription_profile(offered)
-        self._recorded[name] = self.create_subscription(
-            type_of(kind), name, callback, profile, raw=kind != IMAGE
-        )
+            callback = self._on_stamped
+        self._recorded[recorded] = self.create_subscription(
+            type_of(kind), name, partial(callback, recorded), subscription_profile(offered),
+            raw=kind != IMAGE,
+        )  # fmt: skip
 
     def _on_message(self, topic: str, data: bytes) -> None:
         now = time.time_ns()
@@ -144,11 +147,11 @@ class RecorderNode(Node):
         self._try(partial(self.writer.write, topic, now, stamp, data))
 
     def _flush(self) -> None:
-        self._diagnostics.counts["messages"] = self.writer.messages
-        self._diagnostics.counts["topics"] = self.writer.topics
+        self._diagnostics.counts["messages"] = sum(self.writer.counts.values())
+        self._diagnostics.counts["topics"] = len(self._recorded)
         self._try(self.writer.flush)
 
-    def _try(self, step: Any) -> None:
+    def _try(self, step: Callable[[], None]) -> None:
         """Write; a disk that is full ends the recording, and nothing else."""
         if self.failure is not None:
             return
@@ -203,7 +206,3 @@ def main() -> None:
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"recorder_node: the recording ends: {where}{error.strerror}")
-
-
-if __name__ == "__main__":
-    main()

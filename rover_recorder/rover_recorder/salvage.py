@@ -54,14 +54,15 @@ def salvage(path: Path) -> int:
         try:
             with RecordingWriter(new) as writer:
                 _copy(stream, writer)
-            if not writer.messages:
+            count = sum(writer.counts.values())
+            if not count:
                 raise RecordingError(f"{path} holds no message")
             new.replace(path)
         finally:
             new.unlink(missing_ok=True)
     if path == bag.file_of(path.parent):
         writer.write_metadata(path)
-    return writer.messages
+    return count
 
 
 @contextmanager

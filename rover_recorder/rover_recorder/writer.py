@@ -50,14 +50,9 @@ class RecordingWriter:
         self._times: tuple[int, int] | None = None
 
     @property
-    def topics(self) -> int:
-        """How many were added."""
-        return len(self._topics)
-
-    @property
-    def messages(self) -> int:
-        """How many were written."""
-        return self._counts.total()
+    def counts(self) -> dict[str, int]:
+        """Messages by topic, of those that have one."""
+        return dict(self._counts)
 
     def add_topic(self, topic: Topic) -> None:
         """To be called once per topic, before its first message."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from rover_common.types import Command, GridMap
+from rover_recorder.errors import RecordingError
 from rover_tools.evaluation.results import Result, Truth
 from rover_tools.progress import Progress
 from rover_tools.runner.node_player import Player
@@ -45,10 +47,13 @@ def replay_recording(
             playback = player.play(
                 frames(), in_flight, stamp, lambda: progress.show(next(answered), "replayed")
             )
+        if not track:
+            raise RecordingError(f"{recorded.recording.path} holds no whole frame")
         comparison = {
             "commands_different": different_commands(recorded.commands(), player.commands),
             "map_cells_different": different_cells(map_then, player.map_then),
         }
+        playback = replace(playback, skipped=recorded.frame_count - playback.frames)
         stamps, x, y = zip(*track, strict=True)
         title = str(recorded.recording.path)
         return write_replay(playback, stamps[-1], np.array([x, y]).T, run, truth, title, comparison)
