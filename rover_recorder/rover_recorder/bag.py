@@ -5,6 +5,7 @@ The form is that of rosbag2 in Jazzy, version 9 of its metadata.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -30,7 +31,7 @@ def file_of(folder: Path) -> Path:
 
 def channel_metadata(topic: Topic) -> dict[str, str]:
     """What a channel of the MCAP file says about its topic."""
-    return {QOS_KEY: yaml.safe_dump(list(topic.qos), sort_keys=False), HASH_KEY: topic.type_hash}
+    return {QOS_KEY: json.dumps(topic.qos), HASH_KEY: topic.type_hash}  # YAML holds JSON
 
 
 def topic_of(channel: Channel, schema: Schema) -> Topic:

@@ -12,3 +12,4 @@ class RecorderConfig:
     folder: str = parameter(
         "", "folder to record into; empty for a new one below results, named by the time"
     )
+    leave_out: str = parameter("nav_polar", "topics that are not recorded, separated by spaces")

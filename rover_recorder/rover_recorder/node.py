@@ -67,7 +67,8 @@ class RecorderNode(Node):
         self.writer = RecordingWriter(bag.file_of(Path(config.folder or _new_folder())))
         self.failure: OSError | None = None  # the recording has ended with it
         self._recorded: dict[str, Subscription] = {}  # by the name of the recorded topic
-        self._left_out: set[str] = set()  # topics that cannot be recorded
+        # Topics that are not to be recorded, or cannot be.
+        self._left_out = {self.resolve_topic_name(name) for name in config.leave_out.split()}
         self._seen: set[str] = set()  # image topics whose `/compressed` one may come yet
         peers = {name: partial(self._records, needed) for name, needed in NEEDED.items()}
         self._diagnostics = NodeDiagnostics(self, peers)
@@ -95,7 +96,7 @@ class RecorderNode(Node):
         for name, (kind, *others) in found.items():
             hidden = any(part.startswith("_") for part in name.split("/"))
             recorded = f"{name}/compressed" if kind == IMAGE else name
-            if hidden or others or recorded in self._recorded or recorded in self._left_out:
+            if hidden or others or recorded in self._recorded or name in self._left_out:
                 continue
             if kind == IMAGE and (recorded in found or name not in self._seen):
                 self._seen.add(name)
@@ -103,7 +104,7 @@ class RecorderNode(Node):
             try:
                 self._subscribe(name, kind, recorded)
             except RecordingError as error:
-                self._left_out.add(recorded)
+                self._left_out.add(name)
                 self.get_logger().warning(f"{name} is not recorded: {error}")
 
     def _subscribe(self, name: str, kind: str, recorded: str) -> None:

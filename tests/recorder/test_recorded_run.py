@@ -98,7 +98,7 @@ def test_a_topic_that_is_missing_is_named(tmp_path, topic):
 def test_another_definition_is_refused_but_not_another_comment(tmp_path):
     recorded_run(write(tmp_path / "same", changed=("# counts the runs from 1", "# other words")))
     other = write(tmp_path / "other", changed=("bool near_sample", "uint8 near_sample"))
-    with pytest.raises(RecordingError, match="/rover_status is .* of other fields than"):
+    with pytest.raises(RecordingError, match=r"/rover_status is .* of other fields than"):
         recorded_run(other)
 
 
