@@ -13,10 +13,9 @@ numpy=$("$venv/bin/python" -c 'import numpy; print(numpy.get_include())')
 
 # What is built here serves Python alone: code for C++, more than half of what the generators write
 # and nearly all that the compiler reads, is left out.
-share=$venv/share
-sed -i 's/^\( *\)ament_register_extension($/\1set(_not_generated/' \
-  "$share"/rosidl_typesupport{,_fastrtps,_introspection}_cpp/cmake/*-extras.cmake \
-  "$share"/rosidl_generator_cpp/cmake/register_cpp.cmake
+{ grep -rlZE '^ *ament_register_extension\($' \
+  "$venv"/share/rosidl_{generator,typesupport,typesupport_fastrtps,typesupport_introspection}_cpp/cmake || true; } |
+  xargs -0r sed -i -E 's/^( *)ament_register_extension\($/\1set(_not_generated/'
 
 # colcon chains the underlay's setup files; the wheels bring none.
 cat > "$venv/local_setup.sh" <<EOF

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import pty
+import re
 import shutil
 import subprocess
 import sysconfig
@@ -18,6 +20,15 @@ TOOLS = (
 )  # fmt: skip
 BUILD_TOOLS = ("c++", "cmake", "make")
 PYTHON = os.path.realpath(os.environ.get("VIRTUAL_ENV", "") + "/bin/python3")
+
+
+NO_NETWORK = {
+    "PIP_INDEX_URL": "http://127.0.0.1:9/simple",
+    "PIP_CONFIG_FILE": "/dev/null",
+    "PIP_RETRIES": "0",
+    "PIP_NO_CACHE_DIR": "1",
+}
+STEPS = ("make_venv", "install_libraries", "prepare_ros", "build", "import_nodes")
 
 
 class Machine:
@@ -42,6 +53,12 @@ class Machine:
         (self.bin / tool).unlink(missing_ok=True)
         (self.bin / tool).write_text(f"#!/bin/sh\n{script}\n")
         (self.bin / tool).chmod(0o755)
+
+    def replace_steps(self, body: str) -> None:
+        """Each step of the set-up does this instead."""
+        launcher = self.root / "rover"
+        steps = "".join(f"{step}() {{ {body}; }}\n" for step in STEPS)
+        launcher.write_text(launcher.read_text().replace("set_up() (\n", f"{steps}set_up() (\n"))
 
     def rover(self, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
@@ -115,17 +132,46 @@ def test_a_full_disk_is_one_sentence(machine):
 
 
 def test_no_network_is_told_and_nothing_counts_as_done(machine):
-    done = machine.rover(
-        "build",
-        PIP_INDEX_URL="http://127.0.0.1:9/simple",
-        PIP_CONFIG_FILE="/dev/null",
-        PIP_RETRIES="0",
-        PIP_NO_CACHE_DIR="1",
-    )
+    done = machine.rover("build", **NO_NETWORK)
     assert done.returncode == 1
     assert "the package index cannot be reached: is there a network?" in done.stderr
+    assert "rover: uv does not work here; pip installs instead" in done.stderr
+    lines = done.stderr.splitlines()
+    assert lines[0].startswith("rover: setting up")
+    assert lines[1] == "rover: 1/5 making .venv ..."
+    assert "rover: 2/5 installing the libraries into .venv ..." in lines
     assert not (machine.root / ".venv" / ".stamp").exists()
     assert "to do" in machine.rover("doctor").stdout
+
+
+def test_a_set_up_says_how_far_it_is(machine):
+    machine.replace_steps('mkdir -p "$install"')
+    said = machine.rover("build").stderr
+    assert re.findall(r"^rover: (\d)/5 [^:]*: \d+ s$", said, re.MULTILINE) == list("12345")
+    assert re.findall(r"^rover: (\d)/5 .* \.\.\.$", said, re.MULTILINE) == list("12345")
+
+
+def test_a_set_up_on_a_terminal_shows_a_bar(machine):
+    # Each step waits for its progress to be shown.
+    machine.replace_steps('mkdir -p "$install"; read -r <&4')
+    primary, terminal = pty.openpty()
+    reading, writing = os.pipe()
+    environment = {"PATH": str(machine.bin), "PYTHON": PYTHON, "HOME": "/nonexistent"}
+    command = ["bash", "-c", f'exec "$0" build 4<&{reading}', str(machine.root / "rover")]
+    process = subprocess.Popen(command, env=environment, stderr=terminal, pass_fds=[reading])
+    os.close(terminal)
+    shown = b""
+    for number in range(1, len(STEPS) + 1):
+        while not re.search(rb"\] %d/5 [^\r]*, \d+ s" % number, shown):
+            shown += os.read(primary, 1000)
+        os.write(writing, b"go on\n")
+    process.wait(60)
+    for end in (primary, reading, writing):
+        os.close(end)
+    bars = re.findall(rb"\r\x1b\[Krover: \[([# ]{24})\] \d/5", shown)
+    filled = [bar.count(b"#") for bar in bars]
+    assert filled == sorted(filled)
+    assert filled[0] == 0 < filled[-1]
 
 
 def test_leftovers_of_another_environment_do_no_harm(machine):
@@ -201,6 +247,11 @@ def test_the_wheels_cmake_files_are_repaired_below_a_blank(tmp_path):
     cmake = venv / "share" / "some_msgs" / "cmake" / "export.cmake"
     cmake.parent.mkdir(parents=True)
     cmake.write_text("set(dirs /opt/python/cp311-cp311/include/python3.11)\n")
+    generators = {}
+    for name in ("rosidl_typesupport_cpp", "rosidl_typesupport_c"):
+        generators[name] = venv / "share" / name / "cmake" / f"{name}-extras.cmake"
+        generators[name].parent.mkdir(parents=True)
+        generators[name].write_text('ament_register_extension(\n  "rosidl")\n')
     (venv / "bin").mkdir()
     (venv / "bin" / "python").symlink_to(PYTHON)
     (venv / "numpy.py").write_text("def get_include(): return '/numpy/include'\n")
@@ -209,6 +260,8 @@ def test_the_wheels_cmake_files_are_repaired_below_a_blank(tmp_path):
         env={**os.environ, "PYTHONPATH": str(venv)}, check=True,
     )  # fmt: skip
     assert cmake.read_text() == f"set(dirs {sysconfig.get_path('include')})\n"
+    assert generators["rosidl_typesupport_c"].read_text().startswith("ament_register_extension(")
+    assert generators["rosidl_typesupport_cpp"].read_text().startswith("set(_not_generated")
 
 
 def test_installed_scripts_start_below_a_blank(tmp_path):

@@ -45,7 +45,7 @@ def command(
     \b
     Examples:
       ./rover demo
-      ./rover demo --seed 7 --out results/demo-7
+      ./rover demo --seed 7 --out results/demo
     """
     from rover_tools.evaluation.results import summary
     from rover_tools.runner.mission import run_mission

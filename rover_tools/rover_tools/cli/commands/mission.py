@@ -55,7 +55,7 @@ def command(
     Examples:
       ./rover mission --seed 3
       ./rover mission --seed 3 --strategy frontier+bearing --fps 12.5
-      ./rover mission --map canyon.png --seed 8 --json
+      ./rover mission --map docs/examples/map.png --seed 8 --json
     """
     from rover_tools.evaluation.results import summary
     from rover_tools.runner.mission import run_mission

@@ -51,9 +51,9 @@ def command(
 
     \b
     Examples:
-      ./rover replay results/mission-20260101-120000-7
-      ./rover replay test_dataset
-      ./rover replay test_dataset --truth map_bw.png --samples samples.csv
+      ./rover replay docs/examples/recording
+      ./rover replay docs/examples/recording --truth docs/examples/map.png
+      ./rover replay results/seed-3
     """
     from rover_recorder.reader import find_recording
     from rover_simulator.recordings.recording import read_recording

@@ -63,7 +63,7 @@ def command(
     Examples:
       ./rover scoreboard
       ./rover scoreboard --worlds 1-20 --strategies tour,frontier
-      ./rover scoreboard --map canyon.png --seeds 1-20
+      ./rover scoreboard --map docs/examples/map.png --seeds 1-20
       ./rover scoreboard --worlds 1-20 --out results/s1
     """
     from rover_tools.scoreboard.job import Ground, make_jobs

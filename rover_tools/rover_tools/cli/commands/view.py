@@ -23,7 +23,7 @@ def command(recording: Path, port: int, open_page: bool) -> None:
     \b
     Examples:
       ./rover view results/demo --open
-      ./rover view run.mcap
+      ./rover view recordings/first
     """
     import asyncio
     import webbrowser
