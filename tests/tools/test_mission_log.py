@@ -5,13 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import math
+from dataclasses import fields
+from pathlib import Path
 
 import pytest
 from mission_logs import TRUTH, grid_of, mission_log, moment_at
 
 from rover_common.geometry import Pose
 from rover_tools.evaluation.results import Truth
-from rover_tools.report.mission_log import LogBuilder, tilt_of, track_csv
+from rover_tools.report.mission_log import LogBuilder, TrackPoint, tilt_of, track_csv
 
 
 def test_a_point_a_second_and_one_at_the_end():
@@ -87,3 +89,11 @@ def test_track_csv_has_a_heading_and_empty_fields_for_what_is_not_known():
     assert rows[50]["state"] == "RETURN_HOME"
     assert (float(rows[50]["x"]), float(rows[50]["home_distance"])) == (75.0, 30.0)
     assert rows[50]["percent_mapped"] == ""
+
+
+def test_the_readme_has_the_columns():
+    readme = (Path(__file__).resolve().parents[2] / "rover_tools" / "README.md").read_text()
+    rows = readme.split("### The track\n", 1)[1].split("\n#", 1)[0].splitlines()
+    cells = [row.split("|")[1] for row in rows if row.startswith("| `")]
+    names = [name.strip(" `") for cell in cells for name in cell.split(",")]
+    assert sorted(names) == sorted(field.name for field in fields(TrackPoint))

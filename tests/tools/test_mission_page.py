@@ -17,6 +17,7 @@ from rover_tools.report.map_layers import cells_path, track_layers
 from rover_tools.report.mission_log import LogBuilder, MissionLog
 from rover_tools.report.mission_page import mission_map, mission_page
 from rover_tools.report.plots import plots_of, seconds_by_state, spans_of, time_ticks
+from rover_tools.report.video.snapshot import Video
 
 LOGS = {
     "truth": mission_log(),
@@ -36,7 +37,8 @@ def test_nothing_comes_from_outside(name):
 
 
 def test_a_video_is_a_file_beside_the_page():
-    assert '<video src="mission.webm"' in mission_page(LOGS["truth"], "mission.webm")
+    page = mission_page(LOGS["truth"], Video("mission.webm", 4.0))
+    assert '<video src="mission.webm" data-seconds="4.0"' in page
 
 
 def test_names_are_text_not_markup():

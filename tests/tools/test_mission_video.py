@@ -18,7 +18,7 @@ from rover_tools.report.video.colours import BLUE, GROUND, OBSTACLE, PURPLE, UNK
 from rover_tools.report.video.composition import HEIGHT, WIDTH, Composition
 from rover_tools.report.video.map_view import MapView
 from rover_tools.report.video.mission_video import LAST_FRAMES, write_video
-from rover_tools.report.video.snapshot import Snapshot
+from rover_tools.report.video.snapshot import Snapshot, Video
 from rover_tools.report.video.writer import FPS
 
 WINDOW = Window(40.0, -90.0, 80.0, 30.0)  # around ROOM
@@ -85,7 +85,7 @@ def test_the_track_stays_on_the_map():
 def video(tmp_path_factory) -> Path:
     path = tmp_path_factory.mktemp("video") / "mission.webm"
     snapshots = (snapshot_at(float(time)) for time in range(SECONDS))
-    assert write_video(path, snapshots, WINDOW) == SECONDS
+    assert write_video(path, snapshots, WINDOW) == Video("mission.webm", (SECONDS - 1) / FPS)
     return path
 
 

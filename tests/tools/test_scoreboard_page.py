@@ -70,6 +70,8 @@ def test_a_point_lies_on_the_ray_of_its_ratio():
     for point, ratio in zip(scatter.points, (2, 3), strict=True):
         (x0, y0), (x1, y1) = rays[ratio].start, rays[ratio].end
         assert point.y == pytest.approx(y0 + (y1 - y0) * (point.x - x0) / (x1 - x0))
+    ends = [value for ray in scatter.rays for value in (*ray.start, *ray.end)]
+    assert all(-1e-9 < value < 100 + 1e-9 for value in ends)
     inside = [point.x for point in scatter.points] + [point.y for point in scatter.points]
     assert all(0 < value < 100 for value in inside)
 

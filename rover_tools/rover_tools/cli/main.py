@@ -17,6 +17,7 @@ TABLE = {
     "mission": Entry(f"{COMMANDS}.mission", "one mission in the embedded simulator, to its end"),
     "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
     "record": Entry(f"{COMMANDS}.record", "all topics of the running graph, into an MCAP file"),
+    "report": Entry(f"{COMMANDS}.report", "report, video and track of a recorded mission"),
     "replay": Entry(f"{COMMANDS}.replay", "play a recorded run again, and score the map"),
     "view": Entry(f"{COMMANDS}.view", "show a recording on the live page, with a time slider"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),

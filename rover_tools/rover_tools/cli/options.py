@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 F = TypeVar("F", bound=Callable[..., Any])
 
 SYNTAX = "EXPLORER or EXPLORER+WAY_HOME, as in tour or frontier+bearing"
+FILE_OR_FOLDER = click.Path(exists=True, path_type=Path)
 MOST_SEEDS = 10_000  # in one range; more is a slip of the keyboard
 
 json_option = click.option(
@@ -32,8 +33,14 @@ params_option = click.option(
 no_dashboard_option = click.option(
     "--no-dashboard", is_flag=True, help="Do not serve the live page."
 )
+truth_option = click.option(
+    "--truth", type=FILE, metavar="PNG", help="The true map, 200 x 200; non-zero is navigable."
+)
+samples_option = click.option(
+    "--samples", type=FILE, metavar="CSV", help="True positions of the rocks in view: x,y [m]."
+)
 no_record_option = click.option(
-    "--no-record", is_flag=True, help="Do not record the run into the result folder."
+    "--no-record", is_flag=True, help="Do not record the run: no recording, no report, no video."
 )
 open_option = click.option(
     "--open", "open_page", is_flag=True, help="Show the live page in a browser."

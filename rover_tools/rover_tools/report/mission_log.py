@@ -14,7 +14,6 @@ from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.results import Result, Truth
 from rover_tools.evaluation.scoring import score_map
 
-TRACK_FILE = "track.csv"
 PERIOD = 1.0  # [s] between two points of the track
 
 

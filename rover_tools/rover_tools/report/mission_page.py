@@ -13,8 +13,8 @@ from rover_tools.report.map_layers import drawing_of
 from rover_tools.report.mission_log import MissionLog
 from rover_tools.report.pages import render
 from rover_tools.report.plots import plots_of, seconds_by_state, spans_of, time_ticks
+from rover_tools.report.video.snapshot import Video
 
-REPORT = "report.html"
 # Figures of the result that come first; heading, key, unit.
 FIGURES = (
     ("time", "time", "s"),
@@ -40,8 +40,8 @@ class RockRow:
     error: float | None  # [m] to the nearest true sample
 
 
-def mission_page(log: MissionLog, video: str | None = None) -> str:
-    """The page as HTML; video: a file beside it, by its name."""
+def mission_page(log: MissionLog, video: Video | None = None) -> str:
+    """The page as HTML; the video is a file beside it."""
     duration = max(log.track[-1].time, 1e-9) if log.track else 1e-9
     spans = spans_of(log.changes, duration)
     plots = plots_of(log.track)

@@ -9,13 +9,17 @@ from pathlib import Path
 
 import numpy as np
 
+from rover_recorder.errors import RecordingError
+from rover_recorder.reader import FOLDER
 from rover_simulator.options import FPS
 from rover_simulator.simulation import START_TIME
 from rover_simulator.world.world import World
 from rover_tools.evaluation.mission_result import MissionRun, mission_result, truth_of
-from rover_tools.evaluation.results import Result, write_results
+from rover_tools.evaluation.results import Result, Truth, write_results
 from rover_tools.evaluation.strategy import Strategy
+from rover_tools.output import note
 from rover_tools.progress import Progress
+from rover_tools.report.recording_report import write_report
 from rover_tools.runner.graph import default_parameters
 from rover_tools.runner.graph_watch import GraphWatch
 from rover_tools.runner.page import start_page
@@ -46,8 +50,8 @@ def run_mission(
     """Run one mission to its end, score it, and write the result folder.
 
     time_limit [s]: of simulated time. A strategy that is not given is that of the parameters.
-    `page` serves the live page, `open_page` shows it in a browser; `record` records
-    the run into the result folder.
+    `page` serves the live page, `open_page` shows it in a browser; `record` records the run
+    into the result folder, and leaves its report and video there.
     Raises ParametersError, GraphNotReadyError or ProcessDiedError.
     """
     world.save(folder / "world")
@@ -71,8 +75,19 @@ def run_mission(
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
-    write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
+    truth = truth_of(world)
+    write_results(folder, result, grid, measured.track, rocks, truth, world.name)
+    if record:
+        _report(folder, truth, f"{world.name}, {strategy}", result)
     return result
+
+
+def _report(folder: Path, truth: Truth, title: str, result: Result) -> None:
+    """A recording that ended too early costs the report alone."""
+    try:
+        write_report(folder, folder / FOLDER, truth, title, result)
+    except RecordingError as error:
+        note(f"no report: {error}")
 
 
 def _simulator_command(run: Run, seed: int, fps: float, time_limit: float) -> list[str]:

@@ -61,5 +61,5 @@ def command(
         f"the rover {state} after {result['time']} s of simulated time, with "
         f"{result['samples_collected']} of {result['samples_total']} samples; it mapped "
         f"{result['percent_mapped']} % of the canyon at {result['fidelity']} % fidelity; "
-        f"look at {folder / 'map.png'}"
+        f"look at {folder / ('map.png' if no_record else 'report.html')}"
     )

@@ -49,7 +49,7 @@ def command(
     """Run one mission in the embedded simulator, from the start to its end, and score it.
 
     The three nodes run as processes; the simulator waits for their answers, so that a slow machine
-    changes nothing.
+    changes nothing. The result folder holds a recording, a report and a video of it.
 
     \b
     Examples:

@@ -8,23 +8,26 @@ from typing import TYPE_CHECKING
 import click
 
 from rover_common.command_line import Whole
-from rover_simulator.options import FILE
-from rover_tools.cli.options import json_option, out_option, params_option
+from rover_tools.cli.options import (
+    FILE_OR_FOLDER,
+    json_option,
+    out_option,
+    params_option,
+    samples_option,
+    truth_option,
+)
 from rover_tools.output import note, print_result, result_folder
 
 if TYPE_CHECKING:
     from rover_simulator.recordings.recording import YawConvention
 
-FILE_OR_FOLDER = click.Path(exists=True, path_type=Path)
 YAW_CONVENTIONS = ("ccw-from-east", "cw-from-north")
 
 
 @click.command("replay")
 @click.argument("path", type=FILE_OR_FOLDER, metavar="RUN")
-@click.option("--truth", type=FILE, metavar="PNG",
-              help="The true map, 200 x 200; non-zero is navigable.")  # fmt: skip
-@click.option("--samples", type=FILE, metavar="CSV",
-              help="True positions of the rocks in view: x,y [m].")  # fmt: skip
+@truth_option
+@samples_option
 @click.option("--yaw-convention", type=click.Choice(YAW_CONVENTIONS), default=YAW_CONVENTIONS[0],
               show_default=True, help="Convention of the yaw in robot_log.csv.")  # fmt: skip
 @click.option("--in-flight", type=Whole(1, 3), default=2, show_default=True, metavar="N",

@@ -33,8 +33,8 @@ for (const area of areas) {
   area.addEventListener("pointermove", (event) => show(timeAt(event)));
   area.addEventListener("click", (event) => {
     show(timeAt(event));
-    if (video?.duration) video.currentTime = (video.duration * timeAt(event)) / duration;
+    if (video) video.currentTime = (video.dataset.seconds * timeAt(event)) / duration;
   });
 }
-video?.addEventListener("timeupdate", () => show((duration * video.currentTime) / video.duration));
+video?.addEventListener("timeupdate", () => show((duration * video.currentTime) / video.dataset.seconds));
 video?.addEventListener("error", () => video.closest("section").remove(), true);

@@ -17,7 +17,7 @@ from av.video.stream import VideoStream
 
 from rover_tools.report.video.snapshot import Image
 
-OPTIONS = {"loop": "0", "quality": "55", "preset": "picture"}
+OPTIONS = {"loop": "0", "quality": "75", "preset": "picture"}
 
 
 @click.command()

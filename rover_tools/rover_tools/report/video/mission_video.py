@@ -7,15 +7,15 @@ from pathlib import Path
 
 from rover_tools.report.map_layers import Window
 from rover_tools.report.video.composition import HEIGHT, WIDTH, Composition
-from rover_tools.report.video.snapshot import Snapshot
+from rover_tools.report.video.snapshot import Snapshot, Video
 from rover_tools.report.video.writer import FPS, VideoWriter
 
 VIDEO = "mission.webm"
 LAST_FRAMES = 2 * FPS  # for which the end is shown
 
 
-def write_video(path: Path, snapshots: Iterable[Snapshot], window: Window) -> int:
-    """One frame per snapshot, and the last for two seconds; how many frames there are.
+def write_video(path: Path, snapshots: Iterable[Snapshot], window: Window) -> Video:
+    """Write a WebM file with a frame for each snapshot; the last one stays for a while.
 
     window: the part of the map frame that the map shows.
     """
@@ -28,4 +28,4 @@ def write_video(path: Path, snapshots: Iterable[Snapshot], window: Window) -> in
         if picture is not None:
             for _ in range(LAST_FRAMES):
                 video.add(picture)
-    return frames
+    return Video(path.name, max(0, frames - 1) / FPS)

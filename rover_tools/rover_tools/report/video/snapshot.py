@@ -13,6 +13,14 @@ from rover_tools.report.mission_log import Moment
 Image = NDArray[np.uint8]  # (height, width, 3) RGB
 
 
+@dataclass(frozen=True)
+class Video:
+    """A mission's video."""
+
+    name: str  # of the file
+    seconds: float  # from its begin to the frame that shows the mission's end
+
+
 def _no_points() -> NDArray[np.float64]:
     return np.empty((0, 2))
 

@@ -1,0 +1,47 @@
+"""`rover report RUN`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from rover_tools.cli.options import (
+    FILE_OR_FOLDER,
+    json_option,
+    out_option,
+    samples_option,
+    truth_option,
+)
+from rover_tools.output import note, print_result, result_folder
+
+
+@click.command("report")
+@click.argument("path", type=FILE_OR_FOLDER, metavar="RUN")
+@truth_option
+@samples_option
+@out_option
+@json_option
+def command(
+    path: Path, truth: Path | None, samples: Path | None, out: Path | None, as_json: bool
+) -> None:
+    """Make the report, the video and the track of a recorded mission.
+
+    RUN is a result folder, the folder of a recording, or its .mcap file, also of a run with the
+    Unity simulator; of several missions in it, the last one counts. Open report.html in a browser.
+
+    \b
+    Examples:
+      ./rover report recordings/first
+      ./rover report recordings/first --truth map_bw.png --samples samples.csv
+    """
+    from rover_tools.evaluation.results import Truth, summary
+    from rover_tools.output import write_result
+    from rover_tools.report.recording_report import REPORT, write_report
+
+    known = Truth.load(truth, samples)
+    folder = result_folder("report", out)
+    result = write_report(folder, path, known, path.resolve().name)
+    write_result(folder, result)
+    print_result(result, as_json, summary(result))
+    note(f"look at {folder / REPORT}")
