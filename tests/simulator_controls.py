@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from rover_common.geometry import Pose
@@ -22,9 +24,14 @@ HELD = (
 )
 
 
-def simulation_of(*samples: tuple[float, float]) -> Simulation:
+@cache
+def hall_of(*samples: tuple[float, float]) -> World:
     points = np.array(samples, float).reshape(-1, 2)
-    return Simulation(World("hall", HALL, points, Pose(100, 100, 0)), 0, 2)
+    return World("hall", HALL, points, Pose(100, 100, 0))
+
+
+def simulation_of(*samples: tuple[float, float]) -> Simulation:
+    return Simulation(hall_of(*samples), 0, 2)
 
 
 def held(simulation: Simulation) -> tuple[str, str, str]:

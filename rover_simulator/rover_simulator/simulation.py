@@ -16,7 +16,7 @@ from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
 from rover_simulator.wire.command_values import check_base64, parse_number
 from rover_simulator.wire.telemetry_format import format_telemetry
 from rover_simulator.world import boulders
-from rover_simulator.world.terrain import Terrain
+from rover_simulator.world.terrain import terrain_of
 from rover_simulator.world.world import World
 
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
@@ -30,7 +30,7 @@ class Simulation:
 
     def __init__(self, world: World, terrain_seed: int, frame_steps: int) -> None:
         """frame_steps: physics steps of 0.02 s in one rendered frame."""
-        self._terrain = Terrain.of(world.navigable, terrain_seed, samples=world.samples)
+        self._terrain = terrain_of(world, terrain_seed)
         self._renderer = Renderer(world, self._terrain)
         self._boulders = world.boulders
         self._vehicle = Vehicle(world.start)

@@ -20,9 +20,10 @@ from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.types import Decision, Frame
 
-PERIOD = 0.05  # [s]
+PERIOD = 0.1  # [s]
 MAP_PERIOD = 0.5  # [s]
 CELL = 0.25  # [m] of the map
+STEPS = np.arange(0.75, RANGE, 0.1)  # [m] along a ray
 
 
 class PlanarRover:
@@ -79,7 +80,7 @@ class PlanarRover:
         x, y = self._cells.center_of(row, col)
         distance = np.hypot(x - self.pose.x, y - self.pose.y)
         bearing = np.arctan2(y - self.pose.y, x - self.pose.x) - self.pose.yaw
-        bearing = np.angle(np.exp(1j * bearing))
+        bearing = (bearing + math.pi) % math.tau - math.pi
         ray = np.clip(np.round(np.degrees(bearing)) + 54, 0, 108).astype(int)
         seen = (np.abs(bearing) < math.radians(54)) & (distance < self._scan().ranges[ray] + 0.5)
         seen &= distance < RANGE
@@ -135,12 +136,11 @@ class PlanarRover:
             self.pose, self.speed = Pose(self.pose.x, self.pose.y, yaw), 0.0
 
     def _scan(self) -> FreeScan:
-        steps = np.arange(0.75, RANGE, 0.1)
         angle = self.pose.yaw + BEARINGS[:, None]
-        col = np.clip(self.pose.x + steps * np.cos(angle), 0, 199).astype(int)
-        row = np.clip(self.pose.y + steps * np.sin(angle), 0, 199).astype(int)
+        col = np.clip(self.pose.x + STEPS * np.cos(angle), 0, 199).astype(int)
+        row = np.clip(self.pose.y + STEPS * np.sin(angle), 0, 199).astype(int)
         blocked = ~self._navigable[row, col]
-        return scan_of(np.where(blocked.any(axis=1), steps[blocked.argmax(axis=1)], np.inf))
+        return scan_of(np.where(blocked.any(axis=1), STEPS[blocked.argmax(axis=1)], np.inf))
 
     def _sample_in_reach(self) -> tuple[float, float] | None:
         arm_x = self.pose.x + ROVER.arm_forward * math.cos(self.pose.yaw)

@@ -52,11 +52,11 @@ class AskedTwice(StateBehavior):
 
 
 @pytest.mark.parametrize(
-    ("config", "seconds"),
-    [(CONFIG, 120.0), (DecisionConfig(way_home="bearing"), 120.0), (WALL_FOLLOWER, 120.0)],
+    "config",
+    [CONFIG, DecisionConfig(way_home="bearing"), WALL_FOLLOWER],
     ids=["tour", "bearing", "wall follower"],
 )
-def test_questions_change_nothing_over_a_mission(monkeypatch, config, seconds):
+def test_questions_change_nothing_over_a_mission(monkeypatch, config):
     asked: Counter[str] = Counter()
 
     def twice(*arguments: Any) -> dict[State, StateBehavior]:
@@ -64,7 +64,7 @@ def test_questions_change_nothing_over_a_mission(monkeypatch, config, seconds):
         return {state: AskedTwice(each, asked, state.name) for state, each in states.items()}
 
     monkeypatch.setattr(mission, "make_states", twice)
-    run_rough_mission(config, seconds)
+    run_rough_mission(config, 80.0)
     visited = {name.split()[0] for name in asked}
     assert {"FORWARD", "PICKUP", "TILT", "STUCK", "HOLD", "PAUSED", "RETURN_HOME"} <= visited
     assert min(asked.values()) > 0

@@ -20,7 +20,7 @@ AT_REST = {State.IDLE, State.DONE, State.PAUSED, State.HOLD}
 @pytest.mark.parametrize("config", [CONFIG, WALL_FOLLOWER], ids=["tour", "wall follower"])
 def test_every_frame_keeps_the_rules(config):
     history: list[tuple[Frame, Decision]] = []
-    last = run_rough_mission(config, 120.0, lambda *both: history.append(both))
+    last = run_rough_mission(config, 80.0, lambda *both: history.append(both))
     states = [decision.state for _, decision in history]
     wanted = {State.FORWARD, State.PICKUP, State.TILT, State.STUCK, State.HOLD, State.RETURN_HOME}
     assert wanted <= set(states)

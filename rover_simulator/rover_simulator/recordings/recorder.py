@@ -18,7 +18,7 @@ from rover_simulator.recordings.recording import LOG_NAME
 from rover_simulator.sensors.jpeg import encode_jpeg
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.world.generator import generate_world
-from rover_simulator.world.terrain import Terrain
+from rover_simulator.world.terrain import terrain_of
 from rover_simulator.world.world import World
 
 FRAME_PERIOD = 0.04  # [s]
@@ -46,7 +46,7 @@ def record_drive(folder: Path, seed: int = 1, frames: int = 300) -> RecordedDriv
     """Render a drive from the start into the longest arm, and write it as a recorded run."""
     world = generate_world(seed, size=0.6)
     world.save(folder / "world")
-    renderer = Renderer(world, Terrain.of(world.navigable, seed, samples=world.samples))
+    renderer = Renderer(world, terrain_of(world, seed))
     (folder / "IMG").mkdir(parents=True, exist_ok=True)
     shown = np.zeros(len(world.samples), np.intp)
     with (folder / LOG_NAME).open("w", newline="") as log:

@@ -7,6 +7,7 @@ coordinate or colour, because numpy is slow along an axis of three.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -18,7 +19,7 @@ from rover_common.grid import WORLD
 from rover_simulator.sensors.meshes import SKY
 from rover_simulator.sensors.scene import GROUND, Scene
 from rover_simulator.sensors.shading import SUN, ground_colors, noise, shine, sky_colors
-from rover_simulator.world.terrain import Terrain
+from rover_simulator.world.terrain import FINE, Terrain
 from rover_simulator.world.wall_profile import sand_at
 from rover_simulator.world.world import World
 
@@ -26,7 +27,7 @@ BOULDER = np.array([17, 13, 10.0], np.float32)
 SAMPLE = np.array([170, 143, 15.0], np.float32)  # lit by itself, so that it is the same in shadow
 FOG = np.array([139, 125, 114.0], np.float32)
 FOG_DENSITY = 0.005  # [1/m], exponential squared
-PAINT = 8  # [1/m] colours of the ground
+PAINT = FINE  # [1/m] colours of the ground
 SHADOW = 4  # [1/m] its shadows, whose edges are soft
 SHADOW_BIAS = 0.05  # [m] above the ground, so that it does not shade itself
 GRAIN_SCALE = 5  # texels of the fine texture per one of the paint: 40 per metre
@@ -47,7 +48,7 @@ class Renderer:
 
     def __init__(self, world: World, terrain: Terrain) -> None:
         self._scene = Scene(world, terrain)
-        self._colors = self._paint(terrain)
+        self._colors = _painted(world, terrain)
         rays = ROVER_CAMERA.rays().reshape(-1, 3)
         rays /= np.linalg.norm(rays, axis=1, keepdims=True)
         self._rays = np.ascontiguousarray(rays.T)
@@ -101,16 +102,18 @@ class Renderer:
         planes = np.stack(cv2.split(painted)).reshape(3, -1)
         return np.asarray(planes, np.float32), np.asarray(fine, np.float32).ravel()
 
-    def _paint(self, terrain: Terrain) -> NDArray[np.float32]:
-        """Colours of the ground seen from above, (200 PAINT, 200 PAINT, 3), with its shadows."""
-        x, y = _grid(SHADOW)
-        start = np.stack([x, y, terrain.height_at(x, y) + SHADOW_BIAS], axis=1)
-        blocked = self._scene.is_blocked(start, SUN)
-        cells, shadow_cells = round(WORLD.size * PAINT), round(WORLD.size * SHADOW)
-        shade = blocked.reshape(shadow_cells, shadow_cells).astype(np.float32)
-        shade = np.asarray(cv2.resize(shade, (cells, cells), interpolation=cv2.INTER_LINEAR))
-        sand = sand_at(terrain.outside_at(*_grid(PAINT))).astype(np.float32)
-        return ground_colors(sand.reshape(cells, cells), shade)
+
+@lru_cache(maxsize=1)  # of the world that is simulated again and again
+def _painted(world: World, terrain: Terrain) -> NDArray[np.float32]:
+    """Colours of the ground seen from above, (200 PAINT, 200 PAINT, 3), with its shadows."""
+    x, y = _grid(SHADOW)
+    start = np.stack([x, y, terrain.height_at(x, y) + SHADOW_BIAS], axis=1)
+    blocked = Scene(world, terrain).is_blocked(start, SUN)
+    cells, shadow_cells = round(WORLD.size * PAINT), round(WORLD.size * SHADOW)
+    shade = blocked.reshape(shadow_cells, shadow_cells).astype(np.float32)
+    shade = np.asarray(cv2.resize(shade, (cells, cells), interpolation=cv2.INTER_LINEAR))
+    sand = sand_at(terrain.outside).astype(np.float32)
+    return ground_colors(sand, shade)
 
 
 def _wrapped(texels: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,7 +29,7 @@ class Scene:
 
     def __init__(self, world: World, terrain: Terrain) -> None:
         self._terrain = terrain
-        self._ground = MeshScene([terrain.triangles()], GROUND)
+        self._ground = _ground_of(terrain)
         self._samples = world.samples.copy()
         self._meshes = [sample_mesh(float(x), float(y)) for x, y in world.samples]
         self._meshes += [boulders.mesh(boulder) for boulder in world.boulders]
@@ -155,3 +157,8 @@ class Scene:
             away = np.hypot(there[:, 0] - x, there[:, 1] - y) - there[:, 2]
             radius = min(radius, float(np.min(away)))
         return max(0.0, radius)
+
+
+@lru_cache(maxsize=1)  # of the world that is simulated again and again
+def _ground_of(terrain: Terrain) -> MeshScene:
+    return MeshScene([terrain.triangles()], GROUND)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from rover_common.geometry import Pose
+from rover_simulator.world.distances import depth_of
 from rover_simulator.world.wall_profile import MAP_MARGIN
 
 SAMPLES = 6
@@ -25,8 +26,8 @@ def place_samples(
 ) -> NDArray[np.float64]:
     """Positions (6, 2) [m] near the walls, away from the start and from each other."""
     inside = np.kron(ndimage.binary_fill_holes(navigable), np.ones((CELLS, CELLS), bool))
-    depth = ndimage.distance_transform_edt(inside) / CELLS
-    beyond = ndimage.distance_transform_edt(~inside) / CELLS
+    depth = depth_of(inside) / CELLS
+    beyond = depth_of(~inside) / CELLS
     near_wall = (inside & (depth <= DEPTH)) | (~inside & (beyond <= MAP_MARGIN + BEYOND_FLOOR))
     near_wall &= _away_from_boulders(navigable, inside)
     points = (np.argwhere(near_wall)[:, ::-1] + 0.5) / CELLS
@@ -48,4 +49,4 @@ def _away_from_boulders(
     holes = np.kron(~navigable, np.ones((CELLS, CELLS), bool)) & inside
     if not holes.any():
         return np.ones_like(inside)
-    return np.asarray(ndimage.distance_transform_edt(~holes) / CELLS > 2.5)
+    return np.asarray(depth_of(~holes) / CELLS > 2.5)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,9 @@ from scipy import ndimage
 
 from rover_simulator.vehicle.vehicle import Slope
 from rover_simulator.world.boulders import boulder_cells
+from rover_simulator.world.distances import depth_of
 from rover_simulator.world.wall_profile import MAP_MARGIN, height_at, spread_at
+from rover_simulator.world.world import World
 
 SPACING = 0.390625  # [m] between heights, 513 of them over 200 m, as in the original
 COUNT = 513
@@ -26,7 +28,7 @@ SAMPLE_REACH = (SPACING * math.sqrt(2), 2.0)  # [m] around a sample: as low, and
 NO_SAMPLES = np.empty((0, 2))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Terrain:
     heights: NDArray[np.float32]  # (513, 513) [m], [y, x]
     outside: NDArray[np.float32]  # (1600, 1600) [m] from the flat floor's edge, negative inside
@@ -45,9 +47,7 @@ class Terrain:
         the spread that was measured. samples: points (n, 2) [m], around which the ground is low.
         """
         floor = _floor(navigable | boulder_cells(navigable))
-        inside = ndimage.distance_transform_edt(floor) / FINE
-        outward = ndimage.distance_transform_edt(~floor) / FINE
-        outside = np.where(floor, -inside, outward).astype(np.float32)
+        outside = np.asarray(np.where(floor, -depth_of(floor), depth_of(~floor)) / FINE, np.float32)
         at = np.arange(COUNT) * SPACING
         distance = _sample(outside, *np.meshgrid(at, at))
         if relief is None:
@@ -110,6 +110,12 @@ class Terrain:
         )
 
 
+@lru_cache(maxsize=1)  # of the world that is simulated again and again
+def terrain_of(world: World, seed: int) -> Terrain:
+    """The terrain of a world with its samples; the seed draws the relief."""
+    return Terrain.of(world.navigable, seed, samples=world.samples)
+
+
 def _lowered(heights: NDArray[np.float64], x: float, y: float) -> NDArray[np.float64]:
     """The heights, no higher than a sample's ground at a point [m] and less so away from it."""
     at = np.arange(COUNT) * SPACING
@@ -132,8 +138,7 @@ def _noise(seed: int) -> NDArray[np.float64]:
 def _floor(navigable: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The flat floor on the fine grid: the cells and the margin around them, with rounded edges."""
     cells = np.kron(navigable, np.ones((FINE, FINE), bool))
-    beyond = ndimage.distance_transform_edt(~cells) / FINE
-    grown = (beyond < MAP_MARGIN + 0.3).astype(np.float32)
+    grown = (depth_of(~cells) / FINE < MAP_MARGIN + 0.3).astype(np.float32)
     return ndimage.gaussian_filter(grown, 0.4 * FINE) > 0.5 + 0.2
 
 

@@ -24,7 +24,7 @@ class WorldError(RoverError, ValueError):
     """The folder of a world cannot be read."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class World:
     name: str
     navigable: NDArray[np.bool_]  # (200, 200) cells of 1 m, [y, x]
