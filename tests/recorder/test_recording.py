@@ -76,6 +76,7 @@ def test_the_metadata_is_that_of_rosbag2(tmp_path):
         writer.write("/state", 5, 5, text_bytes("on"))
         writer.write("/state", 9, 9, text_bytes("off"))
     text = (tmp_path / "run" / "metadata.yaml").read_text()
+    assert "&id" not in text  # no aliases
     span = {
         "duration": {"nanoseconds": 4}, "message_count": 2,
         "starting_time": {"nanoseconds_since_epoch": 5},
