@@ -99,7 +99,7 @@ def world() -> World:
 
 
 def few_rows(_: Pose) -> int:
-    """Where no image is looked at."""
+    """Where no image is needed."""
     return 152
 
 
