@@ -57,7 +57,7 @@ def checked_lines() -> list[tuple[str, str]]:
         (f"{path.relative_to(ROOT)}:{number}", line)
         for path in (ROOT / name for name in tracked if name)
         if path.is_file()
-        and path.suffix not in (".png", ".jpg")
+        and path.suffix not in (".png", ".jpg", ".webp")
         and not any(path.is_relative_to(folder) for folder in exempt)
         for number, line in enumerate(path.read_text().splitlines(), 1)
     ]
