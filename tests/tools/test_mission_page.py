@@ -90,6 +90,9 @@ def test_stays_add_up_to_the_duration():
         "FORWARD": pytest.approx(40.1),
         "RETURN_HOME": pytest.approx(39.9),
     }
+    assert (
+        spans_of(LOGS["truth"].changes, 40.0999)[-1].width == 0.0
+    )  # the track's times are rounded
     assert [tick.at for tick in time_ticks(80.0)] == [0.0, 25.0, 50.0, 75.0, 100.0]
 
 

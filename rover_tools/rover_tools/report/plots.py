@@ -87,8 +87,8 @@ def spans_of(changes: Sequence[StateChange], duration: float) -> list[Span]:
         Span(
             change.state,
             100 * change.time / duration,
-            100 * (end - change.time) / duration,
-            end - change.time,
+            100 * max(0.0, end - change.time) / duration,
+            max(0.0, end - change.time),
             change.reason,
         )
         for change, end in zip(changes, ends, strict=False)

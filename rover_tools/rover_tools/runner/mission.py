@@ -15,7 +15,7 @@ from rover_simulator.options import FPS
 from rover_simulator.simulation import START_TIME
 from rover_simulator.world.world import World
 from rover_tools.evaluation.mission_result import MissionRun, mission_result, truth_of
-from rover_tools.evaluation.results import Result, Truth, write_results
+from rover_tools.evaluation.results import Result, write_results
 from rover_tools.evaluation.strategy import Strategy
 from rover_tools.output import note
 from rover_tools.progress import Progress
@@ -75,17 +75,17 @@ def run_mission(
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
-    truth = truth_of(world)
-    write_results(folder, result, grid, measured.track, rocks, truth, world.name)
+    write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     if record:
-        _report(folder, truth, f"{world.name}, {strategy}", result)
+        _report(folder, world, result)
     return result
 
 
-def _report(folder: Path, truth: Truth, title: str, result: Result) -> None:
+def _report(folder: Path, world: World, result: Result) -> None:
     """A recording that ended too early costs the report alone."""
+    title = f"{world.name}, {result['strategy']}"
     try:
-        write_report(folder, folder / FOLDER, truth, title, result)
+        write_report(folder, folder / FOLDER, truth_of(world), title, result)
     except RecordingError as error:
         note(f"no report: {error}")
 
