@@ -28,6 +28,7 @@ from rclpy.node import Node  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
 
 from rover_common.ros.fast_dds import use_profiles  # noqa: E402
+from rover_tools.runner.domain import free_domain  # noqa: E402
 
 WAIT = 10.0  # [s] what a test waits at most for a thing to happen
 
@@ -40,19 +41,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
-def domain_id() -> int:
-    """A DDS domain of this test process's own; below 100, clear of the ephemeral ports."""
-    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
-    return 1 + (os.getpid() * 7 + worker) % 99
-
-
 class Ros:
     """Nodes in one context of their own, spun in the test's thread until a predicate holds."""
 
-    def __init__(self) -> None:
+    def __init__(self, domain_id: int) -> None:
         use_profiles()
         self.context = Context()
-        rclpy.init(context=self.context, args=[], domain_id=domain_id())
+        rclpy.init(context=self.context, args=[], domain_id=domain_id)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes: list[Node] = []
 
@@ -93,9 +88,16 @@ def no_thread_left() -> Iterator[None]:
         left[0].join(0.1)
 
 
+@pytest.fixture(scope="session")
+def domain_id() -> Iterator[int]:
+    """A DDS domain of this test process's own."""
+    with free_domain() as domain:
+        yield domain
+
+
 @pytest.fixture
-def ros() -> Iterator[Ros]:
-    ros = Ros()
+def ros(domain_id: int) -> Iterator[Ros]:
+    ros = Ros(domain_id)
     yield ros
     ros.close()
 

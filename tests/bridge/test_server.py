@@ -198,12 +198,12 @@ def test_unmasking_is_the_librarys(data, mask, offset):
     assert apply_mask(data, tuple(mask), len(data), offset) == expected
 
 
-def test_a_port_in_use_ends_the_node_with_one_sentence(server):
+def test_a_port_in_use_ends_the_node_with_one_sentence(server, domain_id):
     program = "from rover_bridge.node import main; main()"
     arguments = ["--ros-args", "-p", f"port:={server.port}", "-p", "host:=127.0.0.1"]
     ended = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", program, *arguments],
-        env=os.environ | {"ROS_DOMAIN_ID": "98"},
+        env=os.environ | {"ROS_DOMAIN_ID": str(domain_id)},
         capture_output=True,
         text=True,
         timeout=60,

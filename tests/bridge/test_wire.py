@@ -14,7 +14,7 @@ from rover_bridge.node import BridgeNode
 from rover_bridge.server import PortInUseError, SocketServer
 from rover_common.types import Command
 
-REQUESTS = 1000
+REQUESTS = 200
 
 
 def test_clients_of_both_protocols_at_once_get_an_answer_for_each_telemetry(ros, bridge):

@@ -166,7 +166,7 @@ def test_a_reset_of_the_scene_begins_run_2_in_every_node(ros, world):
     for topic, (kind, profile) in RUN_OF.items():
         watcher.create_subscription(kind, topic, messages[topic].append, profile)
         assert ros.spin_until(lambda topic=topic: watcher.count_publishers(topic) > 0)
-    (_, first), (answers, second) = graph.run(60, 40, world=world)
+    (_, first), (answers, second) = graph.run(40, 25, world=world)
     assert ros.spin_until(lambda: messages[topics.COMMAND][-1].run == 2)
     for topic, received in messages.items():
         assert ros.spin_until(lambda received=received: received[-1].run == 2), topic
@@ -177,6 +177,6 @@ def test_a_reset_of_the_scene_begins_run_2_in_every_node(ros, world):
         assert stamps == sorted(stamps), topic
     reports = [report for report in messages[topics.MISSION_STATE] if report.run == 2]
     assert (reports[0].elapsed, reports[0].distance) == (pytest.approx(0.0, abs=0.1), 0.0)
-    assert (len(first), len(answers)) == (60, 41)
-    assert second == first[:40]  # it drives as it did
+    assert (len(first), len(answers)) == (40, 26)
+    assert second == first[:25]  # it drives as it did
     assert second[-1] != second[0]

@@ -22,15 +22,18 @@ CAMERA_HEIGHT = ORIGIN_HEIGHT + ROVER_CAMERA.up  # [m]
 LEVEL = Pose(100.0, 100.0, 0.0)
 
 
+HALL = np.zeros((200, 200), bool)
+HALL[85:116, 80:121] = True
+TERRAIN = Terrain.of(HALL)
+
+
 def hall(samples: list[tuple[float, float]]) -> World:
     """An open hall with samples in it."""
-    navigable = np.zeros((200, 200), bool)
-    navigable[85:116, 80:121] = True
-    return World("hall", navigable, np.array(samples, float).reshape(-1, 2), Pose(85, 100, 0))
+    return World("hall", HALL, np.array(samples, float).reshape(-1, 2), Pose(85, 100, 0))
 
 
 def rocks_found(world: World, poses: list[Pose]) -> list[tuple[float, float]]:
-    renderer = Renderer(world, Terrain.of(world.navigable))
+    renderer = Renderer(world, TERRAIN)
     core = Perception(PerceptionConfig(image_lag=0))
     result = None
     for index, pose in enumerate(poses):

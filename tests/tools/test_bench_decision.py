@@ -3,7 +3,10 @@
 import json
 import math
 import threading
+from contextlib import redirect_stdout
+from io import StringIO
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -21,10 +24,17 @@ FRAMES_PER_MAP = math.ceil(PerceptionConfig().map_period * 12.5)
 SMALL = ["bench", "decision", "--seeds", "2,3", "--size", "0.3", "--time-limit", str(SECONDS)]
 
 
-def test_the_benchmark_has_times_of_frames_and_plans(tmp_path, capsys):
-    assert main([*SMALL, "--json", "--out", str(tmp_path)]) == 0
-    result = json.loads(capsys.readouterr().out)
-    assert result == json.loads((tmp_path / "result.json").read_text())
+@pytest.fixture(scope="module")
+def printed_and_written(tmp_path_factory) -> tuple[str, dict[str, Any]]:
+    """The table and the figures of one run."""
+    folder = tmp_path_factory.mktemp("bench")
+    with redirect_stdout(StringIO()) as output:
+        assert main([*SMALL, "--out", str(folder)]) == 0
+    return output.getvalue(), json.loads((folder / "result.json").read_text())
+
+
+def test_the_benchmark_has_times_of_frames_and_plans(printed_and_written):
+    _, result = printed_and_written
     for name in ("tick_ms", "tick_thread_ms", "plan_ms", "plan_thread_ms"):
         median, p99, longest = (result[f"{name}_{column}"] for column in COLUMNS)
         assert 0 < median <= p99 <= longest
@@ -41,12 +51,24 @@ def test_the_benchmark_has_times_of_frames_and_plans(tmp_path, capsys):
         assert result[count] == sum(row[count] for row in missions)
 
 
-def test_the_table_is_for_people(tmp_path, capsys):
-    assert main([*SMALL, "--out", str(tmp_path)]) == 0
-    table = capsys.readouterr().out
+def test_the_table_is_for_people(printed_and_written):
+    table, _ = printed_and_written
     assert table.startswith("[ms]")
     assert "plans over 50 ms" in table
     assert table.count("given up after") == 2
+
+
+def test_json_is_what_is_written(monkeypatch, tmp_path, capsys):
+    def run(world: object, strategy: object, fps: float, limit: float, costs: Costs) -> dict:
+        with costs.frames.lap(), costs.plans.lap():
+            pass
+        return dict.fromkeys(("world", "strategy", "done", "time", "frames", "plans"), 1)
+
+    monkeypatch.setattr(decision, "_run", run)
+    assert main([*SMALL, "--json", "--out", str(tmp_path)]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert printed == json.loads((tmp_path / "result.json").read_text())
+    assert len(printed["missions"]) == 2
 
 
 def test_a_timed_mission_is_the_same_mission():

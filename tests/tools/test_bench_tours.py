@@ -17,7 +17,7 @@ def test_a_rough_tour_is_scored_against_the_truth(tmp_path, monkeypatch, capsys)
         "--drivers",
         "rough",
         "--time-limit",
-        "40",
+        "25",
         "--json",
     ]
     assert main([*arguments, "--out", str(tmp_path)]) == 0

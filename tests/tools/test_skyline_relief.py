@@ -23,10 +23,11 @@ from rover_tools.benchmarks.skyline_relief import Skyline, carve, read_skyline
 
 ROOM = np.zeros((200, 200), bool)
 ROOM[85:116, 85:116] = True
+WORLD = World("room", ROOM, np.empty((0, 2)), Pose(100, 100, 0))
 
 
 def shots(terrain: Terrain, poses: list[Pose]) -> list[Shot]:
-    renderer = Renderer(World("room", ROOM, np.empty((0, 2)), poses[0]), terrain)
+    renderer = Renderer(WORLD, terrain)
     images = [renderer.render(pose).image for pose in poses]
     return [Shot(p, i, sky_mask(i, p)) for p, i in zip(poses, images, strict=True)]
 
@@ -44,10 +45,9 @@ def views(count: int, seed: int) -> list[Pose]:
 
 def test_skylines_tell_the_relief_that_other_views_see():
     hidden, median = Terrain.of(ROOM, 5), Terrain.of(ROOM, relief=np.ones((COUNT, COUNT)))
-    seen = shots(hidden, views(60, 1))
+    asked = views(10, 2)
+    seen, truth = shots(hidden, views(60, 1)), shots(hidden, asked)
     relief = carve(median, read_skyline((shot.pose, shot.sky) for shot in seen))
-    asked = views(20, 2)
-    truth = shots(hidden, asked)
     without = agreement(truth, shots(median, asked))
     carved = agreement(truth, shots(Terrain.of(ROOM, relief=relief), asked))
     assert carved > 0.95 > without

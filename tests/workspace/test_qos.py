@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 import yaml
-from conftest import domain_id
 from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
@@ -56,13 +55,13 @@ class Endpoints:
 
 
 @pytest.fixture
-def graph(ros) -> Iterator[Node]:
+def graph(ros, domain_id) -> Iterator[Node]:
     """All nodes in one context, and the watcher in its own; one node that sees them all."""
     bridge = ros.add(BridgeNode, port=0)
     ros.add(PerceptionNode, use_sim_time=True)
     ros.add(DecisionNode, use_sim_time=True)
     ros.add(DashboardNode, port=0).set_watched(True)
-    with GraphWatch(domain_id()):
+    with GraphWatch(domain_id):
         found = NODES | {WATCH}
         assert ros.spin_until(lambda: found <= set(bridge.get_node_names()))
         assert ros.spin_until(lambda: bridge.count_subscribers(topics.MISSION_STATE) > 0)

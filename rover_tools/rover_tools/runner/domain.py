@@ -33,6 +33,13 @@ def reserved_domain() -> Iterator[int]:
             raise DomainError(f"ROS_DOMAIN_ID={chosen} is no domain: 0 to {HIGHEST}")
         yield int(chosen)
         return
+    with free_domain() as domain:
+        yield domain
+
+
+@contextmanager
+def free_domain() -> Iterator[int]:
+    """A domain that no other run holds, held until the block ends; raises DomainError."""
     for domain in random.sample(DOMAINS, len(DOMAINS)):
         lock = Path(tempfile.gettempdir()) / f"rover-domain-{domain}.lock"
         try:
