@@ -51,7 +51,7 @@ class PerceptionNode(Node):
         self._stamp: int | None = None
         self._map_stamp: int | None = None
         self._maps_due = False  # those that include the last frame
-        self._navigation_map_stamp: int | None = None
+        self._navigation_map_missed = False  # nobody listened when it was due
         self._vision_stamp: int | None = None
         self._frames_at_last_check = 0
         self._make_endpoints()
@@ -139,16 +139,16 @@ class PerceptionNode(Node):
         if self._maps_due and self._stamp is not None:
             self._maps_due = False
             self._publish_map(self._stamp)
+            self._publish_navigation_map(self._stamp)
 
     def _publish_map(self, stamp: int) -> None:
         self._map_stamp = stamp
         self._map.publish(conversions.grid_message_of(stamp, self._core.world_map()))
-        self._publish_navigation_map(stamp)
 
     def _publish_navigation_map(self, stamp: int) -> None:
         """Only while subscribed: its message is sixteen times as large as the world map's."""
-        if self._navigation_map.get_subscription_count() and self._navigation_map_stamp != stamp:
-            self._navigation_map_stamp = stamp
+        self._navigation_map_missed = not self._navigation_map.get_subscription_count()
+        if not self._navigation_map_missed:
             grid = conversions.grid_message_of(stamp, self._core.navigation_map())
             self._navigation_map.publish(grid)
 
@@ -161,16 +161,21 @@ class PerceptionNode(Node):
         self._vision.publish(conversions.image_message_of(stamp, frames.CAMERA_OPTICAL, picture))
 
     def _on_pause_check(self) -> None:
-        """When no frames arrive, publish the maps that include the last one."""
+        """When no frames arrive, publish the world map that includes the last one.
+
+        Not the navigation map, unless nobody listened when it was due: plans are made of the maps
+        that were due, so that a mission is the same however long a frame takes.
+        """
         frame_count = self._diagnostics.counts[FRAMES]
         paused = frame_count == self._frames_at_last_check
         self._frames_at_last_check = frame_count
         if not paused or self._stamp is None:
             return
-        self._maps_due = False
+        self._publish_due_maps()
         if self._map_stamp != self._stamp:
             self._publish_map(self._stamp)
-        self._publish_navigation_map(self._stamp)
+        if self._navigation_map_missed:
+            self._publish_navigation_map(self._stamp)
 
 
 def _due(last: int | None, now: int, period: float) -> bool:

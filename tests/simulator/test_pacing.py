@@ -12,7 +12,6 @@ from raw_server import HANDSHAKE, PING, WAIT, RawServer, Wire
 
 from rover_common.geometry import Pose
 from rover_simulator.simulation import Simulation
-from rover_simulator.wire import unity_client
 from rover_simulator.wire.pacing import LockstepPacing, Pacing, TimedPacing, run_connected
 from rover_simulator.wire.unity_client import UnityClient
 from rover_simulator.world.world import World
@@ -205,24 +204,6 @@ def opened_telemetry(server: RawServer) -> dict[str, str]:
     wire = server.accept()
     assert wire.message() == PING
     return wire.telemetry()
-
-
-def test_it_is_said_once_that_there_is_no_server(monkeypatch, capsys):
-    monkeypatch.setattr(unity_client, "RECONNECT_PAUSE", 0.0)
-    attempts: list[None] = []
-
-    class Counting:
-        def run(self, client: UnityClient, ended: Callable[[], bool]) -> None:
-            raise AssertionError("there is no server")
-
-        def while_disconnected(self) -> None:
-            attempts.append(None)
-
-    server = RawServer()
-    server.close()
-    run_connected(UnityClient("127.0.0.1", server.port), Counting(), lambda: len(attempts) == 3)
-    said = f"rover sim: no server on 127.0.0.1:{server.port}; waiting for one\n"
-    assert capsys.readouterr().err == said
 
 
 def test_the_rover_drives_on_without_a_server(simulation, start):

@@ -7,11 +7,11 @@ from pathlib import Path
 import click
 
 from rover_common.command_line import Whole
-from rover_tools.cli.options import open_option
+from rover_tools.cli.options import FILE_OR_FOLDER, open_option
 
 
 @click.command("view")
-@click.argument("recording", type=click.Path(exists=True, path_type=Path), metavar="RUN")
+@click.argument("recording", type=FILE_OR_FOLDER, metavar="RUN")
 @click.option("--port", type=Whole(0, 65535), default=8080, show_default=True, metavar="N",
               help="TCP port of the page; 0, or where it is taken, any free one.")  # fmt: skip
 @open_option
