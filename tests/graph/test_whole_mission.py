@@ -11,9 +11,9 @@ from rover_simulator.simulation import START_TIME, Simulation
 from rover_simulator.world.generator import generate_world
 from rover_tools.evaluation.closed_loop import Loop
 
-SEED, SIZE = 11, 0.2  # a canyon whose mission ends soon
+SEED, SIZE = 11, 0.1  # a canyon whose mission ends soon
 TIME_LIMIT = 300.0  # [s]
-FRAME_STEPS = 4  # 12.5 frames a second
+FRAME_STEPS = 5  # 10 frames a second
 
 
 def test_a_mission_collects_all_samples_and_comes_home():

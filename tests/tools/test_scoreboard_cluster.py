@@ -14,7 +14,7 @@ from pathlib import Path
 from rover_tools.scoreboard.mission_run import ROW_KEYS
 
 # Small canyons and short missions
-TINY = ("--size", "0.4", "--fps", "12.5", "--time-limit", "1")
+TINY = ("--size", "0.2", "--fps", "12.5", "--time-limit", "1")
 DEADLINE = 100.0  # [s]
 
 ONE_OF_TWO_RAISES = """
@@ -29,7 +29,7 @@ def run(job):
 
 
 if __name__ == "__main__":
-    jobs = [Job("tour", seed, None, 0.4, 12.5, 0.5) for seed in (1, 2)]
+    jobs = [Job("tour", seed, None, 0.2, 12.5, 0.5) for seed in (1, 2)]
     with local_cluster(1) as client:
         for job, outcome in run_all(client, jobs, run):
             print(job.seed, repr(outcome))
