@@ -85,7 +85,7 @@ class SocketServer:
         self._started: deque[int | OSError] = deque()
         ready = threading.Event()
         self._thread = threading.Thread(
-            target=self._run, args=(host, port, ready), name="socket-server"
+            target=self._run, args=(host, port, ready), name="socket-server", daemon=True
         )
         self._thread.start()
         ready.wait()
@@ -112,8 +112,9 @@ class SocketServer:
 
     def _join(self) -> None:
         self._thread.join(STOP_SECONDS)
-        os.close(self._wake_read)
-        os.close(self._wake_write)
+        if not self._thread.is_alive():  # else, on a busy machine, it still waits at the pipe
+            os.close(self._wake_read)
+            os.close(self._wake_write)
 
     def _run(self, host: str, port: int, ready: threading.Event) -> None:
         # The default hub keeps an epoll object open beyond the end of its thread.

@@ -35,7 +35,8 @@ from rover_common.errors import RoverError
 from rover_common.ros import qos
 from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
-from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor
+from rover_common.ros.priority import give_way
+from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for
 from rover_dashboard.config import DashboardConfig
 from rover_dashboard.feed import Feed
 from rover_dashboard.history import History
@@ -161,7 +162,7 @@ def spinning(node: Node) -> Iterator[Executor]:
 
     def spin() -> None:
         while not stop.is_set():
-            executor.spin_once(timeout_sec=WAIT_SECONDS)
+            spin_for(executor, WAIT_SECONDS)
 
     thread = threading.Thread(target=spin, name="rclpy")
     thread.start()
@@ -192,6 +193,7 @@ async def _serve_until_signal(node: DashboardNode, executor: Executor) -> None:
 
 def main() -> None:
     """Entry point of `ros2 run rover_dashboard dashboard_node`."""
+    give_way()
     use_profiles()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = DashboardNode()

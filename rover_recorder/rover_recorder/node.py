@@ -29,8 +29,10 @@ from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros.conversions import MessageError, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
-from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor
+from rover_common.ros.priority import give_way
+from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for
 from rover_recorder import bag
 from rover_recorder.config import RecorderConfig
 from rover_recorder.conversions import (
@@ -178,6 +180,8 @@ def record(args: list[str] | None = None) -> None:
     stop: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _: stop.append(number))
+    give_way()
+    use_profiles()
     # rclpy's own handlers would end the subscriptions before what was published has arrived.
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     node = None
@@ -186,10 +190,8 @@ def record(args: list[str] | None = None) -> None:
         executor = EventsExecutor()
         executor.add_node(node)
         while not stop and node.failure is None:
-            executor.spin_once(timeout_sec=WAIT_SECONDS)
-        end = time.monotonic() + LAST_SECONDS
-        while (left := end - time.monotonic()) > 0 and node.failure is None:
-            executor.spin_once(timeout_sec=left)
+            spin_for(executor, WAIT_SECONDS)
+        spin_for(executor, LAST_SECONDS)
     finally:
         if node is not None:
             node.destroy_node()

@@ -11,7 +11,6 @@ from array import array
 import cv2
 import numpy as np
 import pytest
-from conftest import domain_id
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message, serialize_message
 from recordings_by_hand import write_recording
@@ -166,9 +165,9 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(ros, graph, tmp_path, m
 
 
 @pytest.fixture
-def process(tmp_path):
+def process(tmp_path, domain_id):
     """The node's executable in this test's domain; it is killed if it is left."""
-    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id())}
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id)}
     started = subprocess.Popen(
         recorder_command(tmp_path / "a run #1"), env=environment, stderr=subprocess.PIPE, text=True
     )
@@ -223,9 +222,9 @@ def test_a_signal_ends_the_recording_with_all_that_was_published(
     assert texts_of(recording) == [str(index) for index in range(count)]
 
 
-def test_a_folder_that_holds_a_recording_is_one_line_and_exit_code_1(tmp_path):
+def test_a_folder_that_holds_a_recording_is_one_line_and_exit_code_1(tmp_path, domain_id):
     file = write_recording(tmp_path / "run")
-    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id())}
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(domain_id)}
     done = subprocess.run(
         recorder_command(file.parent), env=environment, capture_output=True, text=True
     )

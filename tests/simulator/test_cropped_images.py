@@ -79,7 +79,7 @@ def test_decisions_are_the_same_with_whole_images(world):
     finally:
         cropped.close()
         whole.close()
-    assert cropped.simulation.distance > 1.0
+    assert cropped.simulation.distance > 0.5
     maps = [loop.perception.navigation_map().cells for loop in (cropped, whole)]
     assert np.array_equal(*maps)
     assert (maps[0] >= 0).sum() > 100

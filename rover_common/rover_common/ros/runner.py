@@ -9,6 +9,7 @@ import rclpy
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 
 from rover_common.ros.fast_dds import use_profiles
 
@@ -19,6 +20,11 @@ except ImportError:
 
 # An idle executor's endless wait now and then misses a signal; a bounded one never does.
 WAIT_SECONDS = 0.2
+
+
+def spin_for(executor: Executor, seconds: float) -> None:
+    """Handle whatever comes within so many seconds; a call per event costs a third more."""
+    executor.spin_until_future_complete(Future(), timeout_sec=seconds)
 
 
 def run_node(
@@ -38,7 +44,7 @@ def run_node(
         executor = executor_class()
         executor.add_node(node)
         while rclpy.ok():
-            executor.spin_once(timeout_sec=WAIT_SECONDS)
+            spin_for(executor, WAIT_SECONDS)
     except ExternalShutdownException:
         pass
     except RCLError:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 
 def depth_of(cells: NDArray[np.bool_]) -> NDArray[np.float32]:
     """Of each cell, the distance [cells] to the nearest that is not set; 0 for those.
 
-    The same as `scipy.ndimage.distance_transform_edt`, to the bit and several times as fast.
+    Not by OpenCV, whose last bits differ from run to run: worlds must be the same everywhere.
     """
-    away = cv2.distanceTransform(cells.astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    return np.asarray(away, np.float32)
+    return np.asarray(ndimage.distance_transform_edt(cells), np.float32)

@@ -33,7 +33,7 @@ def command(
     \b
     Examples:
       ./rover report recordings/first
-      ./rover report recordings/first --truth map_bw.png --samples samples.csv
+      ./rover report recordings/first --truth map_bw.png --samples docs/examples/samples.csv
     """
     from rover_tools.evaluation.results import Truth, summary
     from rover_tools.output import write_result
