@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 
 from rover_simulator.recordings.recorder import record_drive
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples"
 KEYS = {
     "frames", "frames_skipped", "frames_per_second", "latency_ms_p50", "latency_ms_p99",
     "percent_mapped", "fidelity", "f1", "rocks_located", "rocks_missed", "rocks_false",
@@ -29,14 +31,14 @@ def rover(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_replay(tmp_path):
-    drive = record_drive(tmp_path / "drive", seed=1, frames=60)
-    log = drive.folder / "robot_log.csv"
-    lines = log.read_text().splitlines()
+    drive = shutil.copytree(EXAMPLES / "recording", tmp_path / "drive")
+    log = drive / "robot_log.csv"
+    lines = log.read_text().splitlines()[:61]
     log.write_text("\n".join([*lines[:30], "broken;row", *lines[30:]]))
     out = tmp_path / "result"
     done = rover(
-        "replay", str(drive.folder), "--truth", str(drive.truth), "--samples", str(drive.samples),
-        "--out", str(out), "--json",
+        "replay", str(drive), "--truth", str(EXAMPLES / "map.png"),
+        "--samples", str(EXAMPLES / "samples.csv"), "--out", str(out), "--json",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     (line,) = done.stdout.splitlines()

@@ -60,7 +60,7 @@ def wait_for_a_mission(run: subprocess.Popen[str]) -> None:
 
 def test_ctrl_c_and_on_again(tmp_path):
     missions = tmp_path / "missions"
-    run = start("--worlds", "1-3", "--workers", "1", *TINY, "--out", str(tmp_path))
+    run = start("--worlds", "1-2", "--workers", "1", *TINY, "--out", str(tmp_path))
     wait_for_a_mission(run)
     os.killpg(run.pid, signal.SIGINT)  # as a terminal sends it: to the workers as well
     _, said = run.communicate(timeout=DEADLINE)
@@ -68,9 +68,9 @@ def test_ctrl_c_and_on_again(tmp_path):
     assert f"to continue, run it again with --out {tmp_path}" in said
     assert "Traceback" not in said
     completed = {path: path.stat().st_mtime_ns for path in missions.glob("*.json")}
-    assert 1 <= len(completed) < 3
+    assert len(completed) == 1
 
-    run = start("--worlds", "1-2", "--workers", "2", *TINY, "--out", str(tmp_path), "--json")
+    run = start("--worlds", "1-2", "--workers", "1", *TINY, "--out", str(tmp_path), "--json")
     output, said = run.communicate(timeout=DEADLINE)
     assert run.returncode == 0, said
     rows = json.loads(output)
