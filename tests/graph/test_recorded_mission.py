@@ -18,7 +18,7 @@ from rover_recorder import bag
 from rover_recorder.reader import open_recording
 from rover_tools.cli.main import main
 
-SECONDS = 8  # of simulated time
+SECONDS = 5  # of simulated time
 FPS = 12.5
 
 

@@ -30,8 +30,8 @@ from rover_simulator.world.generator import generate_world
 from rover_simulator.world.world import World
 from rover_tools.evaluation.closed_loop import Loop
 
-FRAME_STEPS = 4  # 12.5 frames a second
-FRAMES = 330  # up to a pickup
+FRAME_STEPS = 5  # 10 frames a second
+FRAMES = 265  # up to a pickup
 Answer = tuple[str, Mapping[str, Any]]
 
 

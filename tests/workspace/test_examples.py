@@ -42,8 +42,7 @@ def examples() -> Iterator[tuple[str, ...]]:
 
 LINES = list(dict.fromkeys(examples()))
 MADE = {line[line.index("--out") + 1] for line in LINES if "--out" in line}  # by other examples
-REPLAY = next(words for words in LINES if words[0] == "replay")  # the README's
-QUICK = [REPLAY, *(words for words in LINES if words[0] in ("completion", "doctor"))]
+QUICK = [words for words in LINES if words[0] in ("completion", "doctor")]
 
 
 def called(words: tuple[str, ...]) -> tuple[click.Command, list[str]]:

@@ -9,7 +9,7 @@ import click
 
 from rover_tools.cli.commands.launcher import checkout
 
-PARALLEL = ("-n", "2", "--dist", "worksteal")
+PARALLEL = ("-n", "3", "--dist", "worksteal")
 
 
 @click.command(
@@ -19,7 +19,7 @@ PARALLEL = ("-n", "2", "--dist", "worksteal")
 def command(arguments: tuple[str, ...]) -> None:
     """Run all tests with pytest, or those that ARGUMENTS choose.
 
-    ARGUMENTS go to pytest, after `-n 2 --dist worksteal`; the exit code is pytest's.
+    ARGUMENTS go to pytest, after `-n 3 --dist worksteal`; the exit code is pytest's.
 
     \b
     Examples:
