@@ -44,7 +44,7 @@ class Latency:
     """From the odometry of a frame to its command, as a node beside the graph hears them [ms]."""
 
     def __init__(self, watched: Watched) -> None:
-        node = watched.run.watch._node
+        node = watched.run.watch.node
         self.laps: list[float] = []
         self._arrived: dict[int, float] = {}
         node.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
@@ -121,7 +121,7 @@ async def in_turns(
 ) -> tuple[list[float], list[float], int]:
     """Median latencies [ms] of the turns closed and open; subscriptions left while closed."""
     latency = Latency(watched)
-    node = watched.run.watch._node
+    node = watched.run.watch.node
     closed, opened, left = [], [], 0
     for _ in range(pairs):
         await page.send("Page.navigate", url="about:blank")

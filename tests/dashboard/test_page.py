@@ -145,7 +145,7 @@ async def is_refused_elsewhere(browser: Browser, address: str) -> None:
 
 
 async def look_at(watched: Watched) -> None:
-    watcher = watched.run.watch._node
+    watcher = watched.run.watch.node
     assert watcher.count_subscribers(topics.VISION_IMAGE) == 0
     async with chromium() as browser:
         page = await browser.new_page()

@@ -24,7 +24,7 @@ from rover_common import topics
 from rover_dashboard.node import DashboardNode
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
-from rover_tools.runner.graph_watch import GraphWatch
+from rover_tools.runner.node_watch import GraphWatch
 
 RVIZ = Path(__file__).resolve().parents[2] / "rover_bringup" / "rviz" / "rover.rviz"
 NODES = {"bridge_node", "perception_node", "decision_node", "dashboard_node"}

@@ -81,7 +81,7 @@ def imports_of(path: Path) -> set[str]:
 def test_only_nodes_and_conversions_know_ros(path):
     if path.stem in ("node", "conversions") or path.stem.startswith("node_"):
         return
-    if path.parent.name == "ros" or path.stem == "graph_watch":
+    if path.parent.name == "ros":
         return
     assert not imports_of(path) & (MESSAGE_PACKAGES | {"rclpy"})
 

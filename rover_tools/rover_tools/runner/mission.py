@@ -21,7 +21,7 @@ from rover_tools.output import note
 from rover_tools.progress import Progress
 from rover_tools.report.recording_report import write_report
 from rover_tools.runner.graph import default_parameters
-from rover_tools.runner.graph_watch import GraphWatch
+from rover_tools.runner.node_watch import GraphWatch
 from rover_tools.runner.page import start_page
 from rover_tools.runner.recording import recording
 from rover_tools.runner.run import Run, running_graph

@@ -7,13 +7,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable
-from types import TracebackType
 
-import rclpy
 from nav_msgs.msg import OccupancyGrid, Odometry
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from rover_interfaces.msg import DriveCommand, RoverStatus
 from sensor_msgs.msg import Image
@@ -24,7 +19,8 @@ from rover_common.frames import CAMERA_OPTICAL
 from rover_common.ros import conversions, qos
 from rover_common.types import Command, GridMap
 from rover_simulator.recordings.replay import ANSWER_TIMEOUT, NoAnswerError, Playback
-from rover_tools.runner.graph_watch import GraphNotReadyError
+from rover_tools.runner.node_in_domain import NodeInDomain
+from rover_tools.runner.node_watch import GraphNotReadyError
 from rover_tools.runner.recorded_run import FrameMessages
 
 READY_SECONDS = 10.0  # [s] for the nodes to know the player, and the player the nodes
@@ -32,21 +28,17 @@ MAP_SECONDS = 5.0  # [s] for the map of a frame to arrive
 SPIN_SECONDS = 0.05  # [s]
 
 
-class Player:
+class Player(NodeInDomain):
     """Plays into the perception and decision nodes of a domain, in the caller's thread."""
 
     def __init__(self, domain_id: int) -> None:
+        super().__init__("player", domain_id)
         self.commands: dict[int, Command] = {}  # by the stamp [ns] of the frame
         self.map_then: GridMap | None = None  # after the frame of `map_stamp`
         self._sent: dict[int, float] = {}  # [s] when, of the frames without an answer, by stamp
         self._latencies: list[float] = []
         self._map: tuple[int, GridMap] | None = None  # the newest, with its stamp
-        self._context = Context()
-        rclpy.init(context=self._context, args=[], domain_id=domain_id)
-        self._node = Node("player", context=self._context, enable_rosout=False)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self._node)
-        publish, subscribe = self._node.create_publisher, self._node.create_subscription
+        publish, subscribe = self.node.create_publisher, self.node.create_subscription
         self._image = publish(Image, topics.IMAGE, qos.FRAME)
         self._odometry = publish(Odometry, topics.ODOMETRY, qos.FRAME)
         self._status = publish(RoverStatus, topics.STATUS, qos.FRAME)
@@ -87,22 +79,6 @@ class Player:
             last_time=stamp / conversions.NANOSECONDS,
         )
 
-    def close(self) -> None:
-        self._executor.shutdown()
-        self._node.destroy_node()
-        self._context.try_shutdown()
-
-    def __enter__(self) -> Player:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
     def _publish(self, frame: FrameMessages) -> None:
         image = conversions.image_message_of(frame.stamp, CAMERA_OPTICAL, decode_jpeg(frame.jpeg))
         self._sent[frame.stamp] = time.perf_counter()
@@ -139,7 +115,7 @@ class Player:
         while not predicate():
             if time.monotonic() > end:
                 return False
-            self._executor.spin_once(timeout_sec=SPIN_SECONDS)
+            self.executor.spin_once(timeout_sec=SPIN_SECONDS)
         return True
 
     def _on_command(self, message: DriveCommand) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from rover_tools.output import note
 from rover_tools.runner.domain import reserved_domain
 from rover_tools.runner.graph import HOST, NODES, default_parameters, free_port, start_graph
-from rover_tools.runner.graph_watch import GraphWatch
+from rover_tools.runner.node_watch import GraphWatch
 from rover_tools.runner.processes import Processes
 
 READY_SECONDS = 30.0  # [s] for all nodes to find each other

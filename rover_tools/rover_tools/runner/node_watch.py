@@ -5,42 +5,32 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from types import TracebackType
 
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from nav_msgs.msg import OccupancyGrid
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rover_interfaces.msg import MissionState, RockTrackArray
 
 from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
-from rover_common.ros.fast_dds import use_profiles
 from rover_common.types import GridMap, RockTrack
+from rover_tools.runner.node_in_domain import NodeInDomain
 
 
 class GraphNotReadyError(RoverError):
     """The nodes did not all connect in time."""
 
 
-class GraphWatch:
+class GraphWatch(NodeInDomain):
     """A node in a thread of its own; what it holds may be read from any thread."""
 
     def __init__(self, domain_id: int) -> None:
-        use_profiles()
-        self.context = Context()
-        rclpy.init(context=self.context, args=[], domain_id=domain_id)
-        self._node = Node("watch", context=self.context, enable_rosout=False)
-        self._executor = SingleThreadedExecutor(context=self.context)
-        self._executor.add_node(self._node)
+        super().__init__("watch", domain_id)
         self.diagnostics: dict[str, DiagnosticStatus] = {}
         self.grid: OccupancyGrid | None = None
         self._rocks: RockTrackArray | None = None
         self.mission: MissionState | None = None
-        subscribe = self._node.create_subscription
+        subscribe = self.node.create_subscription
         subscribe(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS)
         subscribe(OccupancyGrid, topics.WORLDMAP, self._on_grid, qos.LATCHED)
         subscribe(RockTrackArray, topics.ROCKS, self._on_rocks, qos.LATCHED)
@@ -90,24 +80,11 @@ class GraphWatch:
     def close(self) -> None:
         self._stop = True
         self._thread.join()
-        self._executor.shutdown()
-        self._node.destroy_node()
-        self.context.try_shutdown()
-
-    def __enter__(self) -> GraphWatch:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
+        super().close()
 
     def _spin(self) -> None:
         while not self._stop:
-            self._executor.spin_once(timeout_sec=0.05)
+            self.executor.spin_once(timeout_sec=0.05)
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:
