@@ -17,6 +17,7 @@ from rover_decision.types import Request
 
 DECISION = "decision_node"
 PATIENCE = 5.0  # [s] of wall time for an answer
+DISCOVERY = 2.0  # [s] for a service to be found
 
 
 class Requests:
@@ -58,9 +59,12 @@ class Requests:
 
 async def _call(client: Client, request: Any) -> Any:
     """The response, None when there is none within PATIENCE; rclpy answers in its own thread."""
-    if not client.service_is_ready():
-        return None
     loop = asyncio.get_running_loop()
+    found_by = loop.time() + DISCOVERY
+    while not client.service_is_ready():  # each service is found by itself, some later than others
+        if loop.time() > found_by:
+            return None
+        await asyncio.sleep(0.05)
     arrived: asyncio.Future[Any] = loop.create_future()
 
     def settle(response: Any) -> None:
