@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_tools.cli.commands import mission, scoreboard
+from rover_tools.cli.main import rover
 from rover_tools.evaluation.strategy import ParametersError, Strategy, StrategyError, choices
 
 SHIPPED = Path(__file__).resolve().parents[2] / "rover_bringup" / "config" / "rover.yaml"
@@ -49,14 +49,21 @@ def test_broken_yaml_is_one_line(tmp_path):
     assert "\n" not in str(error.value)
 
 
+def parsed(command: str, *arguments: str) -> dict[str, object]:
+    """The parameters of a command, as `rover COMMAND ARGUMENTS` parses them."""
+    root = rover.make_context("rover", [command, *arguments])
+    with root:
+        _, found, rest = rover.resolve_command(root, [command, *arguments])
+        assert found is not None
+        return found.make_context(command, rest, parent=root).params
+
+
 def test_a_mission_takes_a_strategy_by_either_name():
     for option in ("--explorer", "--strategy"):
-        chosen = mission.command.make_context("mission", [option, "wall_follow_b+bearing"])
-        assert chosen.params["strategy"] == Strategy("wall_follow_b", "bearing")
-    assert mission.command.make_context("mission", []).params["strategy"] is None
+        strategy = parsed("mission", option, "wall_follow_b+bearing")["strategy"]
+        assert strategy == Strategy("wall_follow_b", "bearing")
+    assert parsed("mission")["strategy"] is None
 
 
 def test_the_scoreboards_default_is_the_default_strategy():
-    assert scoreboard.command.make_context("scoreboard", []).params["strategies"] == (
-        str(Strategy()),
-    )
+    assert parsed("scoreboard")["strategies"] == (str(Strategy()),)
