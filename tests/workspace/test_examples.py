@@ -23,7 +23,7 @@ EXAMPLES = ROOT / "docs" / "examples"
 PAGES = [
     ROOT / "README.md",
     *sorted((ROOT / "docs").glob("*.md")),
-    *sorted(ROOT.glob("rover_*/README.md")),
+    *sorted(ROOT.glob("*_*/README.md")),
     *sorted((ROOT / "rover_tools" / "help").glob("*.txt")),
 ]
 COMMAND = re.compile(r"^ {2,}(?:PYTHON=\S+ |source <\()?\./rover ([^\n]*)", re.MULTILINE)

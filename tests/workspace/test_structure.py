@@ -21,8 +21,8 @@ from rover_perception.config import PerceptionConfig
 from rover_recorder.config import RecorderConfig
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = sorted(path.parent.name for path in ROOT.glob("rover_*/package.xml"))
-MODULES = sorted(ROOT.glob("rover_*/rover_*/**/*.py"))
+PACKAGES = sorted(path.parent.name for path in ROOT.glob("*/package.xml"))
+MODULES = sorted(path for name in PACKAGES for path in (ROOT / name / name).rglob("*.py"))
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 FILE_LINES, FUNCTION_LINES = 250, 45
 CONFIGS = {
@@ -33,9 +33,9 @@ CONFIGS = {
     "recorder_node": RecorderConfig,
 }
 MESSAGE_PACKAGES = {
-    "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav_msgs",
-    "rcl_interfaces", "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs", "std_srvs",
-    "tf2_msgs", "visualization_msgs",
+    "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav2_msgs",
+    "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs",
+    "std_srvs", "tf2_msgs", "visualization_msgs",
 }  # fmt: skip
 # The rosdep key of each library that is imported under another name.
 ROSDEP_KEYS = {
