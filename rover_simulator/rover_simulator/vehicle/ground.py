@@ -33,22 +33,22 @@ class Ground:
 
 
 FLAT = Ground()
+FLOOR = [(0.0, 0.0, 0.0)] * len(WHEELS)  # what a surface gives there
 
 
 def ground_under(pose: Pose, surface: Surface) -> Ground:
     """Of a rover at a pose, from the heights and slopes of the ground at its four wheels."""
     c, s = math.cos(pose.yaw), math.sin(pose.yaw)
     spots = [surface(pose.x + c * a - s * b, pose.y + s * a + c * b) for a, b in WHEELS]
-    if not any(map(any, spots)):
+    if spots == FLOOR:
         return FLAT
-    front_left, front_right, rear_left, rear_right = (height for height, _, _ in spots)
-    front, rear = (front_left + front_right) / 2, (rear_left + rear_right) / 2
-    left, right = (front_left + rear_left) / 2, (front_right + rear_right) / 2
+    (h1, east1, north1), (h2, east2, north2), (h3, east3, north3), (h4, east4, north4) = spots
+    front, rear = (h1 + h2) / 2, (h3 + h4) / 2
     pitch = math.atan2(rear - front, ROVER.wheelbase)
-    roll = math.atan2(left - right, ROVER.track)
-    loads = _loads(pitch, roll)
-    east = sum(load * dx for load, (_, dx, _) in zip(loads, spots, strict=True))
-    north = sum(load * dy for load, (_, _, dy) in zip(loads, spots, strict=True))
+    roll = math.atan2((h1 + h3 - h2 - h4) / 2, ROVER.track)
+    load1, load2, load3, load4 = _loads(pitch, roll)
+    east = load1 * east1 + load2 * east2 + load3 * east3 + load4 * east4
+    north = load1 * north1 + load2 * north2 + load3 * north3 + load4 * north4
     return Ground(
         (front * ROVER.rear_axle + rear * ROVER.front_axle) / ROVER.wheelbase,
         pitch,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from rover_common.vehicle import ROVER
 from rover_simulator.vehicle.ground import Ground
@@ -15,8 +15,7 @@ PITCH_PER_ACCELERATION = math.radians(2.5)  # [rad s^2/m]
 ROLL_PER_ACCELERATION = math.radians(3.5)  # [rad s^2/m]
 
 
-@dataclass(frozen=True)
-class Swing:
+class Swing(NamedTuple):
     """The motion of the body about one axis."""
 
     angle: float = 0.0  # [rad]
@@ -34,8 +33,7 @@ class Swing:
         return Swing(held, rate if held == angle else 0.0)
 
 
-@dataclass(frozen=True)
-class Tilt:
+class Tilt(NamedTuple):
     """The body's pitch, nose down positive, and its roll, left side up positive."""
 
     pitch: Swing
