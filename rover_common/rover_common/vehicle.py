@@ -14,13 +14,15 @@ from dataclasses import dataclass
 class VehicleModel:
     """A rover with four driven wheels, two of them steered, and an arm at its front.
 
-    Distances are those in base_link: from its origin, which lies between the axles, 0.386 m behind
-    the front one and 0.336 m ahead of the rear one.
+    Distances are those in base_link: from its origin, which lies between the axles.
     """
 
     # Steering command and wheels
     max_steering: float  # [rad] of a steering command, to either side
     wheelbase: float  # [m] between the axles
+    front_axle: float  # [m] ahead of the origin
+    rear_axle: float  # [m] behind the origin
+    track: float  # [m] between the left and the right wheels
     wheel_at_rest: float  # [rad] of the front wheels at max_steering, standing
     wheel_at_max_speed: float  # [rad] the same at max_speed; linear in the speed between
     yaw_factor: float  # yaw rate per kinematic one, speed * tan(wheel) / wheelbase
@@ -46,8 +48,20 @@ class VehicleModel:
     body_front: float  # [m] ahead of the origin
     body_rear: float  # [m] behind the origin
     body_half_width: float  # [m] to either side
+    mass_depth: float  # [m] centre of mass below the origin
+    suspension_travel: float  # [m] of a wheel, from stop to stop
     # Ground this near to the origin may be outside of the camera's view
     camera_blind_radius: float  # [m]
+
+    @property
+    def pitch_stop(self) -> float:
+        """Most [rad] that the suspension lets the body pitch against the ground, either way."""
+        return math.atan(self.suspension_travel / self.wheelbase)
+
+    @property
+    def roll_stop(self) -> float:
+        """Most [rad] that the suspension lets the body roll against the ground, either way."""
+        return math.atan(self.suspension_travel / self.track)
 
     def wheel_limit(self, speed: float) -> float:
         """Angle [rad] of the front wheels at max_steering and a speed [m/s] of either sign."""
@@ -58,6 +72,9 @@ class VehicleModel:
 ROVER = VehicleModel(
     max_steering=math.radians(15.0),  # constant
     wheelbase=0.7221,  # constant
+    front_axle=0.3861,  # constant
+    rear_axle=0.336,  # constant
+    track=0.792,  # constant
     wheel_at_rest=math.radians(15.0),  # constant
     wheel_at_max_speed=math.radians(5.0),  # constant
     yaw_factor=0.95,  # measured: 0.92 coasting, 0.96 at full throttle
@@ -78,5 +95,9 @@ ROVER = VehicleModel(
     body_front=0.535,  # derived: front axle at 0.3861, wheels of radius 0.1485
     body_rear=0.485,  # derived: rear axle at -0.336
     body_half_width=0.44,  # derived: wheels at 0.396, and half their width
+    mass_depth=1.0,  # constant
+    # constant: the stops that follow, 1.31 degrees of pitch and 1.19 of roll, are where recorded
+    # tilts pile up on flat ground
+    suspension_travel=0.0165,
     camera_blind_radius=1.2,  # chosen: the ground ahead is seen from 0.76 m on, to the sides later
 )

@@ -12,6 +12,7 @@ from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.vehicle.arm import Arm
 from rover_simulator.vehicle.fixed_turn import FixedTurn
+from rover_simulator.vehicle.ground import Ground, ground_under
 from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
 from rover_simulator.wire.command_values import check_base64, parse_number
 from rover_simulator.wire.telemetry_format import format_telemetry
@@ -34,6 +35,7 @@ class Simulation:
         self._renderer = Renderer(world, self._terrain)
         self._boulders = world.boulders
         self._vehicle = Vehicle(world.start)
+        self._ground = self._ground_under()
         self._arm = Arm([(float(x), float(y)) for x, y in world.samples])
         self._fixed_turn = FixedTurn()
         self._controls = Controls()
@@ -150,25 +152,26 @@ class Simulation:
             return
         if self._fixed_turn.running:
             self._vehicle.rotate(self._fixed_turn.advance(STEP))
+            self._ground = self._ground_under()
             return
         before = self._vehicle.pose
-        self._vehicle.step(self._controls, self._terrain.slope_at(before.x, before.y))
+        self._vehicle.step(self._controls, self._ground)
         depth = boulders.overlap(self._vehicle.pose, self._boulders)
         blocked = depth > 0.0 and depth > boulders.overlap(before, self._boulders)
         if blocked:
             self._vehicle.bump(before)
         after = self._vehicle.pose
         self.distance += math.hypot(after.x - before.x, after.y - before.y)
-        touching = blocked or self._ground_height() > CONTACT_HEIGHT
+        self._ground = self._ground_under()
+        touching = blocked or self._ground.height > CONTACT_HEIGHT
         if touching:
             self.contacts += self._untouched > CONTACT_SECONDS
             self._untouched = 0.0
         else:
             self._untouched += STEP
 
-    def _ground_height(self) -> float:
-        pose = self._vehicle.pose
-        return self._terrain.height_at_point(pose.x, pose.y)
+    def _ground_under(self) -> Ground:
+        return ground_under(self._vehicle.pose, self._terrain.surface_at)
 
     def _capture(self) -> bytes:
         """What the camera sees now; a body that is held sees the same as a frame ago."""
@@ -177,5 +180,5 @@ class Simulation:
             return self._next_image
         self._captured_at = pose
         first_row = first_row_to_encode(self._first_row(pose))
-        rendering = self._renderer.render(pose, self._ground_height(), first_row)
+        rendering = self._renderer.render(pose, self._ground.height, first_row)
         return encode_jpeg(rendering.image)

@@ -9,19 +9,21 @@ from rover_common.geometry import Pose
 from rover_common.vehicle import ROVER
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.arm import Arm
-from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
+from rover_simulator.vehicle.ground import FLAT, Ground
+from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
 from rover_simulator.world.world import World
 
-FLAT = Slope()
 HALL = np.zeros((200, 200), bool)
 HALL[80:121, 80:121] = True
 
 
-def driven(controls: Controls, seconds: float, speed: float = 0.0, slope: Slope = FLAT) -> Vehicle:
+def driven(
+    controls: Controls, seconds: float, speed: float = 0.0, ground: Ground = FLAT
+) -> Vehicle:
     vehicle = Vehicle(Pose(100, 100, 0))
     vehicle.speed = speed
     for _ in range(round(seconds / STEP)):
-        vehicle.step(controls, slope)
+        vehicle.step(controls, ground)
     return vehicle
 
 
@@ -66,7 +68,7 @@ def test_throttle_lowers_the_nose_and_left_turns_lean_left():
 
 
 def test_a_slope_pushes_the_rover_back():
-    vehicle = driven(Controls(), 1.5, speed=1.0, slope=Slope(dx=0.3))
+    vehicle = driven(Controls(), 1.5, speed=1.0, ground=Ground(pitch=-math.atan(0.3), ahead=0.3))
     assert vehicle.speed < 0
     assert vehicle.pose.pitch < 0
 

@@ -6,9 +6,8 @@ import pytest
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import ROVER
-from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
-
-FLAT = Slope()
+from rover_simulator.vehicle.ground import FLAT
+from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
 
 
 def driven(controls: Controls, seconds: float, speed: float = 0.0) -> Vehicle:

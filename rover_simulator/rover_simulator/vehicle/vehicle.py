@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.vehicle import ROVER
+from rover_simulator.vehicle.ground import Ground
+from rover_simulator.vehicle.tilt import Swing, Tilt
 
 STEP = 0.02  # [s]
 GRAVITY = 9.81  # [m/s^2]
@@ -22,18 +24,11 @@ YAW_COASTING, YAW_DRIVEN = 0.92, 0.96  # of the kinematic yaw rate
 # Deceleration per sideways acceleration; measured at full steering: 0.03 m/s^2 at 1.75 m/s,
 # 0.06 at 2.75 and 0.13 at 3.75, where the rover is pushed sideways with 0.8, 1.6 and 2.4 m/s^2.
 CORNERING = 0.04
-AXLE_BEHIND = 0.336  # [m] rear axle behind the origin
 # The tyres give way sideways, so that the course swings from inside of the yaw at low speed to
 # outside of it at high: 4 degrees at 2 m/s and full steering, none at 3.7, -1.4 at 5.
 SIDE_GIVE = math.radians(1.15)  # [rad s^2/m] of course per sideways acceleration
 # The yaw rate follows the wheels only after the tyres have rolled on.
 YAW_DELAY = 0.006  # [s^2/m] time constant per speed: 0.03 s at 5 m/s
-# The body rocks: period 1.9 s, damping ratio 0.085, within the suspension's stops.
-ROCKING = 2 * math.pi / 1.9  # [rad/s]
-DAMPING = 0.085
-PITCH_STOP, ROLL_STOP = math.radians(1.31), math.radians(1.19)
-PITCH_PER_ACCELERATION = math.radians(2.5)  # [rad s^2/m]
-ROLL_PER_ACCELERATION = math.radians(3.5)  # [rad s^2/m]
 SIDE_SLIP = 0.3  # [s] sideways speed per sideways component of gravity beyond what tyres hold
 SIDE_HOLD = 0.6  # sideways slope that the tyres hold
 
@@ -47,14 +42,6 @@ class Controls:
     brake: float = 0.0  # not clamped
 
 
-@dataclass(frozen=True)
-class Slope:
-    """The ground under the rover."""
-
-    dx: float = 0.0  # rise of the ground per metre to the east
-    dy: float = 0.0  # and to the north
-
-
 class Vehicle:
     """State of the body; `step` moves it by one physics step."""
 
@@ -63,8 +50,7 @@ class Vehicle:
         self.speed = 0.0  # [m/s] along the body, forward positive
         self._turning = False  # on the spot
         self._yaw_rate = 0.0  # [rad/s]
-        self._pitch_rate = 0.0
-        self._roll_rate = 0.0
+        self._tilt = Tilt(Swing(start.pitch), Swing(start.roll))
 
     @property
     def reported_speed(self) -> float:
@@ -92,7 +78,7 @@ class Vehicle:
         """Turn the held body by an angle [rad], as a fixed turn does."""
         self.pose = replace(self.pose, yaw=wrap_angle(self.pose.yaw + angle))
 
-    def step(self, controls: Controls, slope: Slope) -> None:
+    def step(self, controls: Controls, ground: Ground) -> None:
         """One step of 0.02 s."""
         motor = controls.throttle != 0.0 or controls.brake != 0.0
         slow = abs(self.speed) < ROVER.turn_in_place_below
@@ -101,18 +87,20 @@ class Vehicle:
         if self._turning:
             self.speed = 0.0
             self._yaw_rate = 0.0
-            self._move(0.0, ROVER.turn_in_place_rate * controls.steering, 0.0, slope)
-            self._tilt(0.0, 0.0, slope)
+            self._move(0.0, ROVER.turn_in_place_rate * controls.steering, 0.0, ground)
+            self._lean(0.0, 0.0, ground)
             return
         steady = self._steady_yaw_rate(controls)
         self._yaw_rate += (steady - self._yaw_rate) * STEP / (STEP + YAW_DELAY * abs(self.speed))
         rate = self._yaw_rate
-        self._accelerate(controls, rate, slope)
-        inside = math.atan(AXLE_BEHIND * math.tan(self._wheel_angle(controls)) / ROVER.wheelbase)
-        self._move(self.speed, rate, inside - SIDE_GIVE * abs(self.speed) * rate, slope)
+        self._accelerate(controls, rate, ground)
+        inside = math.atan(
+            ROVER.rear_axle * math.tan(self._wheel_angle(controls)) / ROVER.wheelbase
+        )
+        self._move(self.speed, rate, inside - SIDE_GIVE * abs(self.speed) * rate, ground)
         drive = DRIVE * controls.throttle if self.speed < ROVER.max_speed - 0.01 else DRIVE
         braking = (before - self.speed) / STEP if controls.brake else 0.0
-        self._tilt(drive * bool(controls.throttle) - braking, self.speed * rate, slope)
+        self._lean(drive * bool(controls.throttle) - braking, self.speed * rate, ground)
 
     def _steady_yaw_rate(self, controls: Controls) -> float:
         """Yaw rate [rad/s] of a long turn at this speed: a part of what the wheels' angle gives."""
@@ -124,9 +112,8 @@ class Vehicle:
         double = 2.0 if controls.throttle < 0 else 1.0
         return double * ROVER.wheel_limit(self.speed) * controls.steering / ROVER.max_steering
 
-    def _accelerate(self, controls: Controls, rate: float, slope: Slope) -> None:
-        along, _ = self._slope_in_body(slope)
-        push = DRIVE * controls.throttle - COAST * self.speed - GRAVITY * along
+    def _accelerate(self, controls: Controls, rate: float, ground: Ground) -> None:
+        push = DRIVE * controls.throttle - COAST * self.speed - GRAVITY * ground.ahead
         self.speed += push * STEP
         brake = _interpolate(abs(controls.brake), BRAKE_INPUT, BRAKE_DECELERATION)
         loss = (brake + CORNERING * abs(rate) * abs(self.speed)) * STEP
@@ -134,48 +121,21 @@ class Vehicle:
         limit = ROVER.max_reverse_speed if controls.throttle < 0 else ROVER.max_speed
         self.speed = max(-limit, min(limit, self.speed))
 
-    def _move(self, speed: float, rate: float, slip: float, slope: Slope) -> None:
+    def _move(self, speed: float, rate: float, slip: float, ground: Ground) -> None:
         pose = self.pose
         yaw = wrap_angle(pose.yaw + rate * STEP)
         course = yaw + slip
-        _, aside = self._slope_in_body(slope)
-        excess = math.copysign(max(0.0, abs(aside) - SIDE_HOLD), aside)
+        excess = math.copysign(max(0.0, abs(ground.aside) - SIDE_HOLD), ground.aside)
         slide = -SIDE_SLIP * GRAVITY * excess
         x = pose.x + (speed * math.cos(course) - slide * math.sin(yaw)) * STEP
         y = pose.y + (speed * math.sin(course) + slide * math.cos(yaw)) * STEP
         self.pose = Pose(x, y, yaw, pose.pitch, pose.roll)
 
-    def _tilt(self, forward: float, leftward: float, slope: Slope) -> None:
-        """Rock towards the tilt of the ground and of the forces [m/s^2].
-
-        The centre of mass lies below the ground: throttle lowers the nose, turns lean inward.
-        """
-        along, aside = self._slope_in_body(slope)
-        pitch = _clamp(PITCH_PER_ACCELERATION * forward, PITCH_STOP) - math.atan(along)
-        roll = -_clamp(ROLL_PER_ACCELERATION * leftward, ROLL_STOP) + math.atan(aside)
+    def _lean(self, forward: float, leftward: float, ground: Ground) -> None:
+        """Tilt with the ground and with the forces per mass [m/s^2]."""
+        self._tilt = self._tilt.step(ground, forward, leftward, STEP)
         pose = self.pose
-        self._pitch_rate += _rocking(pitch - pose.pitch, self._pitch_rate) * STEP
-        self._roll_rate += _rocking(roll - pose.roll, self._roll_rate) * STEP
-        self.pose = Pose(
-            pose.x,
-            pose.y,
-            pose.yaw,
-            pose.pitch + self._pitch_rate * STEP,
-            pose.roll + self._roll_rate * STEP,
-        )
-
-    def _slope_in_body(self, slope: Slope) -> tuple[float, float]:
-        """Rise per metre forward, and to the left."""
-        c, s = math.cos(self.pose.yaw), math.sin(self.pose.yaw)
-        return c * slope.dx + s * slope.dy, c * slope.dy - s * slope.dx
-
-
-def _rocking(offset: float, rate: float) -> float:
-    return ROCKING**2 * offset - 2 * DAMPING * ROCKING * rate
-
-
-def _clamp(value: float, limit: float) -> float:
-    return max(-limit, min(limit, value))
+        self.pose = Pose(pose.x, pose.y, pose.yaw, self._tilt.pitch.angle, self._tilt.roll.angle)
 
 
 def _interpolate(x: float, xs: tuple[float, ...], ys: tuple[float, ...]) -> float:

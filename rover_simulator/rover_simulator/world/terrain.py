@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from rover_simulator.vehicle.vehicle import Slope
 from rover_simulator.world.boulders import boulder_cells
 from rover_simulator.world.distances import depth_of
 from rover_simulator.world.wall_profile import MAP_MARGIN, height_at, spread_at
@@ -68,22 +67,22 @@ class Terrain:
 
     def height_at_point(self, x: float, y: float) -> float:
         """What `height_at` gives for one point [m], without the cost of arrays."""
+        return self.surface_at(x, y)[0]
+
+    def surface_at(self, x: float, y: float) -> tuple[float, float, float]:
+        """Height [m] of the ground at a point [m], and its rise per metre to east and north."""
         row, col = min(max(y / SPACING, 0.0), COUNT - 1.0), min(max(x / SPACING, 0.0), COUNT - 1.0)
         top, left = min(int(row), COUNT - 2), min(int(col), COUNT - 2)
         upper, lower = self._rows[top], self._rows[top + 1]
         a, b, c, d = upper[left], upper[left + 1], lower[left], lower[left + 1]
         if a == b == c == d:  # the floor
-            return a
+            return a, 0.0, 0.0
         down, right = row - top, col - left
         up, back = 1.0 - down, 1.0 - right
-        return _single(a * up * back + b * up * right + c * down * back + d * down * right)
-
-    def slope_at(self, x: float, y: float) -> Slope:
-        """Rise of the ground at a point [m], over half a metre as the wheels feel it."""
-        reach = 0.25
-        east, west = self.height_at_point(x + reach, y), self.height_at_point(x - reach, y)
-        north, south = self.height_at_point(x, y + reach), self.height_at_point(x, y - reach)
-        return Slope(_single(east - west) / (2 * reach), _single(north - south) / (2 * reach))
+        height = _single(a * up * back + b * up * right + c * down * back + d * down * right)
+        east = ((b - a) * up + (d - c) * down) / SPACING
+        north = ((c - a) * back + (d - b) * right) / SPACING
+        return height, east, north
 
     @cached_property
     def _rows(self) -> list[list[float]]:

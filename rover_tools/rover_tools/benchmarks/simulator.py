@@ -17,7 +17,8 @@ from rover_common.geometry import wrap_angle
 from rover_common.ground_truth import load_truth
 from rover_simulator.recordings.recording import RecordedFrame, read_recording
 from rover_simulator.simulation import Simulation
-from rover_simulator.vehicle.vehicle import STEP, Controls, Slope, Vehicle
+from rover_simulator.vehicle.ground import FLAT
+from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
 from rover_simulator.world.generator import generate_world
 from rover_tools.benchmarks.pictures import COLLISION_TILT, RUNS, picture_agreement
 from rover_tools.benchmarks.wire_speed import wire_speed
@@ -86,7 +87,7 @@ def window_error(frames: list[RecordedFrame]) -> tuple[float, float, float]:
             (frame.time - frames[0].time) / STEP
         )
         for _ in range(steps):
-            vehicle.step(controls, Slope())
+            vehicle.step(controls, FLAT)
     last = frames[-1]
     offset = (vehicle.pose.x - last.pose.x, vehicle.pose.y - last.pose.y)
     return (

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import ROVER
-from rover_simulator.vehicle.vehicle import BRAKE_INPUT, STEP, Controls, Slope, Vehicle
+from rover_simulator.vehicle.ground import FLAT
+from rover_simulator.vehicle.vehicle import BRAKE_INPUT, STEP, Controls, Vehicle
 
 THROTTLE = Controls(throttle=1.0)  # the most that the bridge sends
 BRAKE = Controls(brake=BRAKE_INPUT[-1])  # harder ones do not stop it sooner
@@ -55,7 +56,7 @@ def _drive(vehicle: Vehicle, controls: Controls) -> NDArray[np.float64]:
     """Rows of time [s], distance [m] and speed [m/s] until the speed does not change any more."""
     rows = [(0.0, 0.0, vehicle.speed)]
     while True:
-        vehicle.step(controls, Slope())
+        vehicle.step(controls, FLAT)
         rows.append((rows[-1][0] + STEP, vehicle.pose.x, vehicle.speed))
         if rows[-1][2] == rows[-2][2]:
             return np.array(rows[:-1])
