@@ -44,6 +44,20 @@ class PerceptionConfig:
     vision_period: float = parameter(
         0.2, "[s] of frame time between two vision images", minimum=0.0, maximum=60.0
     )
+    recipe: str = parameter(
+        "exact",
+        "how images become a map: exact, or baseline as published programs do it",
+        choices=("exact", "baseline"),
+    )
+    baseline_range: float = parameter(
+        5.0, "[m] ground beyond is not mapped by the baseline", minimum=1.0, maximum=30.0
+    )
+    baseline_tilt: float = parameter(
+        0.012217,
+        "[rad] pitch or roll beyond which a frame is not mapped by the baseline",
+        minimum=0.001,
+        maximum=1.6,
+    )
 
     def __post_init__(self) -> None:
         _check_divides(self.evidence_resolution, self.map_resolution, "map_resolution")

@@ -25,10 +25,9 @@ from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.sync import ExactTimeSynchronizer
 from rover_common.types import PerceptionResult
-from rover_perception.camera.vision import vision_image
 from rover_perception.config import PerceptionConfig
+from rover_perception.factory import make_perception
 from rover_perception.frame_validation import FrameError
-from rover_perception.perception import Perception
 
 # Counters in /diagnostics, beside those of FrameError's subclasses.
 FRAMES = "frames"
@@ -46,7 +45,7 @@ class PerceptionNode(Node):
         super().__init__("perception_node", **kwargs)
         cv2.setNumThreads(1)  # the images are small, and the other nodes need the cores
         self._config = declare_parameters(self, PerceptionConfig)
-        self._core = Perception(self._config)
+        self._core = make_perception(self._config)
         self._join = ExactTimeSynchronizer((topics.IMAGE, topics.ODOMETRY, topics.STATUS))
         self._stamp: int | None = None
         self._map_stamp: int | None = None
@@ -153,11 +152,10 @@ class PerceptionNode(Node):
             self._navigation_map.publish(grid)
 
     def _publish_vision(self, stamp: int) -> None:
-        segmentation = self._core.segmentation
-        if segmentation is None:
+        picture = self._core.vision_image()
+        if picture is None:
             return
         self._vision_stamp = stamp
-        picture = vision_image(segmentation)
         self._vision.publish(conversions.image_message_of(stamp, frames.CAMERA_OPTICAL, picture))
 
     def _on_pause_check(self) -> None:

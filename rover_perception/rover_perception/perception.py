@@ -21,12 +21,15 @@ from rover_common.types import (
 )
 from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import Segmentation, ground_columns, rock_mask
+from rover_perception.camera.vision import vision_image
 from rover_perception.config import PerceptionConfig
 from rover_perception.frame_validation import FrameValidator
+from rover_perception.map_schedule import MapSchedule
 from rover_perception.mapping.evidence import EvidenceGrid
 from rover_perception.mapping.field_of_view import FieldOfView
 from rover_perception.mapping.free_scan import blocked_scan, free_scan
 from rover_perception.mapping.occupancy import OccupancyMaps
+from rover_perception.polar import polar_array
 from rover_perception.stages import StageRunner, run_stage
 from rover_perception.tracking.rock_detection import detect_rocks
 from rover_perception.tracking.rock_tracks import RockTracks
@@ -51,7 +54,7 @@ class Perception:
         self._evidence = EvidenceGrid(self._field_of_view)
         self._maps = OccupancyMaps(self._evidence, config.map_resolution)
         self._rocks = RockTracks()
-        self._map_stamp: int | None = None
+        self._schedule = MapSchedule(config.map_period)
         self._segmentation: Segmentation | None = None
 
     def process(self, frame: CameraFrame) -> PerceptionResult:
@@ -85,6 +88,10 @@ class Perception:
         """Of the newest frame; None before the first one of a run, and without usable ground."""
         return self._segmentation
 
+    def vision_image(self) -> NDArray[np.uint8] | None:
+        """The newest image (height, width, 3) RGB with what its pixels show; None without one."""
+        return None if self._segmentation is None else vision_image(self._segmentation)
+
     @property
     def evidence(self) -> EvidenceGrid:
         """What the maps are derived from."""
@@ -111,21 +118,6 @@ class Perception:
             rock=rock or PolarArray.empty(),
             scan=scan,
             rocks=self._rocks.confirmed(),
-            map_stamp=self._newest_map(frame.stamp),
+            map_stamp=self._schedule.newest(frame.stamp),
             run=frame.run,
         )
-
-    def _newest_map(self, stamp: int) -> int:
-        """Maps are due at the first frame of a run, and whenever `map_period` has passed."""
-        last = self._map_stamp
-        if last is None or abs(stamp - last) >= self._config.map_period * 1e9:
-            self._map_stamp = last = stamp
-        return last
-
-
-def polar_array(x: NDArray, y: NDArray) -> PolarArray:
-    """Points (x, y) [m] of the level frame by range and bearing."""
-    return PolarArray(
-        np.hypot(x, y).astype(np.float32),
-        np.arctan2(y, x).astype(np.float32),
-    )

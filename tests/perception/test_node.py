@@ -16,7 +16,7 @@ from rover_common.geometry import Pose
 from rover_common.map_encoding import navigable_cells
 from rover_common.ros import conversions, qos
 from rover_common.types import FIRST_RUN, Run
-from rover_perception import node as perception_node
+from rover_perception import perception
 from rover_perception.node import PerceptionNode
 
 POSE = Pose(90.0, 100.0, 0.0)
@@ -227,7 +227,7 @@ def test_a_new_run_starts_a_new_map_and_its_messages_carry_its_number(ros, peer)
 
 def test_the_vision_image_is_not_drawn_without_a_subscriber(ros, peer, monkeypatch):
     drawn = []
-    monkeypatch.setattr(perception_node, "vision_image", drawn.append)
+    monkeypatch.setattr(perception, "vision_image", drawn.append)
     for index in range(3):
         peer.send(1_000_000_000 + index * 300_000_000)
         assert ros.spin_until(lambda index=index: len(peer.got[topics.FREE_SCAN]) == index + 1)

@@ -3,7 +3,6 @@
 import json
 from functools import partial
 
-import numpy as np
 from scene import draw
 
 from rover_common.geometry import Pose
@@ -12,7 +11,6 @@ from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
 from rover_simulator.recordings import recorder
 from rover_tools.benchmarks import perception as bench_perception
-from rover_tools.benchmarks.baseline import BaselinePerception
 from rover_tools.cli.main import main
 
 POSE = Pose(90.0, 100.5, 0.0)
@@ -24,25 +22,6 @@ STAGES = [
 
 def strip(x, y):
     return (y > 98) & (y < 103)
-
-
-def test_the_baseline_maps_the_ground_ahead_of_a_level_rover():
-    baseline = BaselinePerception()
-    ranges, bearings = baseline.process(draw(POSE, strip), POSE)
-    assert len(ranges) == len(bearings) > 100
-    rows, cols = np.nonzero(baseline.navigable())
-    assert {92, 93} <= set(cols.tolist())
-    assert rows.min() >= 97
-    assert rows.max() <= 103
-    assert (cols >= 90).all()
-    assert (cols <= 95).all()
-
-
-def test_the_baseline_maps_nothing_when_tilted():
-    baseline = BaselinePerception()
-    tilted = Pose(90.0, 100.5, 0.0, pitch=0.02)
-    baseline.process(draw(tilted, strip), tilted)
-    assert not baseline.navigable().any()
 
 
 def test_the_timer_measures_each_stage_of_the_pipeline_once_per_frame():

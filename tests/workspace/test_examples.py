@@ -41,7 +41,8 @@ def examples() -> Iterator[tuple[str, ...]]:
 
 
 LINES = list(dict.fromkeys(examples()))
-MADE = {line[line.index("--out") + 1] for line in LINES if "--out" in line}  # by other examples
+OUT = {line[line.index("--out") + 1] for line in LINES if "--out" in line}
+MADE = {name for name in OUT if not Path(name).suffix}  # folders that other examples make
 QUICK = [words for words in LINES if words[0] in ("completion", "doctor")]
 
 

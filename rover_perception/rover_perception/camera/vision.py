@@ -19,8 +19,18 @@ def vision_image(segmentation: Segmentation) -> NDArray[np.uint8]:
     row = np.arange(image.shape[0])[:, None] + 0.5
     below_horizon = row > columns.horizon
     ground = row > columns.reach
+    return paint(image, ground, below_horizon & ~ground, segmentation.rock_mask > 0)
+
+
+def paint(
+    image: NDArray[np.uint8],
+    ground: NDArray[np.bool_],
+    obstacle: NDArray[np.bool_],
+    rock: NDArray[np.bool_],
+) -> NDArray[np.uint8]:
+    """The image (height, width, 3) RGB with the pixels of each mask (height, width) coloured."""
     picture = image.astype(np.float32)
-    for mask, color in ((ground, GROUND), (below_horizon & ~ground, OBSTACLE)):
+    for mask, color in ((ground, GROUND), (obstacle, OBSTACLE)):
         picture[mask] = (1 - STRENGTH) * picture[mask] + STRENGTH * np.array(color)
-    picture[segmentation.rock_mask > 0] = ROCK
+    picture[rock] = ROCK
     return picture.astype(np.uint8)

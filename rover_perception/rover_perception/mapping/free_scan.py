@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rover_common.types import FreeScan
 from rover_perception.camera.ground_projection import GroundProjection
@@ -27,8 +28,13 @@ def free_scan(projection: GroundProjection, columns: GroundColumns, max_range: f
     inside = (index >= 0) & (index < COUNT) & np.isfinite(ranges)
     nearest = np.full(COUNT, np.inf)
     np.minimum.at(nearest, index[inside], ranges[inside])
-    nearest = np.where(nearest > max_range, np.inf, np.maximum(nearest, RANGE_MIN))
-    return FreeScan(-FIELD, INCREMENT, RANGE_MIN, max_range, nearest.astype(np.float32))
+    return scan_of(nearest, max_range)
+
+
+def scan_of(nearest: NDArray, max_range: float) -> FreeScan:
+    """The scan of the distances [m] to the nearest obstacle in each of COUNT bearings."""
+    ranges = np.where(nearest > max_range, np.inf, np.maximum(nearest, RANGE_MIN))
+    return FreeScan(-FIELD, INCREMENT, RANGE_MIN, max_range, ranges.astype(np.float32))
 
 
 def blocked_scan(max_range: float) -> FreeScan:

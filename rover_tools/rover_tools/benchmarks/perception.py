@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.types import CameraFrame
+from rover_perception.baseline.perception import BaselinePerception
 from rover_perception.config import PerceptionConfig
 from rover_perception.mapping.occupancy import free_shares
 from rover_perception.perception import Perception
 from rover_simulator.recordings.recording import read_recording
-from rover_tools.benchmarks.baseline import BaselinePerception
 from rover_tools.benchmarks.curve_plot import Curve, draw_curves
 from rover_tools.evaluation.recordings import data_folder
 from rover_tools.evaluation.results import Result, Truth, score
@@ -95,7 +95,7 @@ def _generated_sequences(folder: Path, seeds: Sequence[int]) -> list[FrameSequen
 
 def _run_sequence(sequence: FrameSequence, timer: StageTimer) -> tuple[Result, list[Curve]]:
     """Map one sequence with both pipelines; returns the row of the table, and both curves."""
-    core, baseline = Perception(CONFIG, timer), BaselinePerception()
+    core, baseline = Perception(CONFIG, timer), BaselinePerception(CONFIG)
     result = None
     frames = 0
     for index, (pose, image) in enumerate(_frames_of(sequence.folder)):
@@ -104,7 +104,7 @@ def _run_sequence(sequence: FrameSequence, timer: StageTimer) -> tuple[Result, l
         if result.map_stamp == frame.stamp:
             timer("world_map", core.world_map)
             timer("navigation_map", core.navigation_map)
-        timer("baseline", baseline.process, image, pose)
+        timer("baseline", baseline.process, frame)
         frames += 1
     truth = sequence.truth.navigable
     if result is None or truth is None:

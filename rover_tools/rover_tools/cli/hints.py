@@ -7,6 +7,8 @@ COMMANDS = {
     "fly": "mission",
     "start": "mission",
     "launch": "mission",
+    "stages": "explain",
+    "show": "explain",
     "benchmark": "bench",
     "benchmarks": "bench",
     "perception": "bench perception",

@@ -31,10 +31,11 @@ from rover_decision.missions.sample_return import make_core
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.types import Decision, Frame
+from rover_perception.baseline.top_view import FIRST_ROW
 from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import ABOVE_HORIZON, NEAREST_ROWS
 from rover_perception.config import PerceptionConfig
-from rover_perception.perception import Perception
+from rover_perception.factory import make_perception
 from rover_simulator.simulation import Simulation
 
 # [px] The telemetry's pose is rounded, so perception may find the horizon one row higher.
@@ -65,8 +66,9 @@ class Loop:
     ) -> None:
         """`core` takes the place of the one that `decision` describes."""
         self.simulation = simulation
-        simulation.crop_images(first_row_read)
-        self.perception = Perception(perception or PerceptionConfig())
+        config = perception or PerceptionConfig()
+        simulation.crop_images(FIRST_ROWS[config.recipe])
+        self.perception = make_perception(config)
         self.core = core or make_core(decision or DecisionConfig(), lockstep=True)
         self.frame: Frame | None = None  # the newest that was decided on
         self._run = FIRST_RUN
@@ -150,6 +152,13 @@ def first_row_read(pose: Pose) -> int:
         return 0
     row = math.floor(projection.highest_horizon) - ABOVE_HORIZON - POSE_ROUNDING
     return min(max(row, 0), ROVER_CAMERA.height - NEAREST_ROWS)
+
+
+# By perception's recipe; the baseline reads the same rows at every pose.
+FIRST_ROWS: dict[str, Callable[[Pose], int]] = {
+    "exact": first_row_read,
+    "baseline": lambda pose: FIRST_ROW,
+}
 
 
 def _through_message(pose: Pose) -> Pose:

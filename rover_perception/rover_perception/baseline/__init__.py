@@ -1,0 +1,1 @@
+"""Perception as published programs for this rover do it, to compare with."""
