@@ -77,7 +77,7 @@ class Perception:
         scan = run("free_scan", free_scan, projection, columns, max_range)
         nav = run("nav_polar", polar_array, *ground)
         rock = run("rock_polar", polar_array, rocks.x, rocks.y)
-        self._segmentation = Segmentation(image, mask, columns)
+        self._segmentation = Segmentation(image, mask, columns, projection)
         return self._result(frame, scan, nav, rock)
 
     @property
