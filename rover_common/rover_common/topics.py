@@ -12,6 +12,7 @@ ROCK_POLAR = "rock_polar"  # rover_interfaces/PolarArray
 FREE_SCAN = "free_scan"  # sensor_msgs/LaserScan
 ROCKS = "rocks"  # rover_interfaces/RockTrackArray, latched
 VISION_IMAGE = "vision_image"  # sensor_msgs/Image, rgb8
+BIRDSEYE_IMAGE = "birdseye_image"  # sensor_msgs/Image, rgb8, the same seen from above
 BRIDGE_STATE = "bridge_state"  # std_msgs/String, latched: connected or disconnected
 COMMAND = "cmd_drive"  # rover_interfaces/DriveCommand
 MISSION_STATE = "mission_state"  # rover_interfaces/MissionState, latched

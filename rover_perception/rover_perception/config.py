@@ -42,7 +42,10 @@ class PerceptionConfig:
         0.25, "[s] of frame time between two world maps", minimum=0.0, maximum=60.0
     )
     vision_period: float = parameter(
-        0.2, "[s] of frame time between two vision images", minimum=0.0, maximum=60.0
+        0.2,
+        "[s] of frame time between two vision images, and between two bird's-eye images",
+        minimum=0.0,
+        maximum=60.0,
     )
     recipe: str = parameter(
         "exact",

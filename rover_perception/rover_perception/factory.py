@@ -28,6 +28,9 @@ class Pipeline(Protocol):
     def vision_image(self) -> NDArray[np.uint8] | None:
         """The newest image with what is seen in it; None where nothing can be."""
 
+    def birdseye_image(self) -> NDArray[np.uint8] | None:
+        """The same from above; None where nothing can be seen."""
+
 
 def make_perception(config: PerceptionConfig) -> Pipeline:
     """The one that `recipe` names."""

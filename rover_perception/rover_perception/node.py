@@ -2,8 +2,8 @@
 
 Subscribes camera/image_raw, odom and rover_status (joined by stamp). Publishes nav_polar,
 rock_polar, free_scan and rocks (latched) for every frame; worldmap (latched) at the map period;
-navigation_map (latched) and vision_image only while subscribed; /diagnostics. Parameters: see
-PerceptionConfig. The whole contract is in the package's README.
+navigation_map (latched), vision_image and birdseye_image only while subscribed; /diagnostics.
+Parameters: see PerceptionConfig. The whole contract is in the package's README.
 """
 
 from __future__ import annotations
@@ -11,9 +11,12 @@ from __future__ import annotations
 from typing import Any
 
 import cv2
+import numpy as np
 from nav_msgs.msg import OccupancyGrid, Odometry
+from numpy.typing import NDArray
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rover_interfaces.msg import PolarArray, RockTrackArray, RoverStatus
 from sensor_msgs.msg import Image, LaserScan
 
@@ -51,7 +54,7 @@ class PerceptionNode(Node):
         self._map_stamp: int | None = None
         self._maps_due = False  # those that include the last frame
         self._navigation_map_missed = False  # nobody listened when it was due
-        self._vision_stamp: int | None = None
+        self._picture_stamps: dict[str, int] = {}  # [ns] by topic
         self._frames_at_last_check = 0
         self._make_endpoints()
         self._pause_timer = self.create_timer(
@@ -67,6 +70,7 @@ class PerceptionNode(Node):
         self._map = publish(OccupancyGrid, topics.WORLDMAP, qos.LATCHED)
         self._navigation_map = publish(OccupancyGrid, topics.NAVIGATION_MAP, qos.LATCHED)
         self._vision = publish(Image, topics.VISION_IMAGE, qos.VIEW)
+        self._birdseye = publish(Image, topics.BIRDSEYE_IMAGE, qos.VIEW)
         image = self.create_subscription(Image, topics.IMAGE, self._on_image, qos.FRAME)
         odometry = self.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
         status = self.create_subscription(RoverStatus, topics.STATUS, self._on_status, qos.FRAME)
@@ -124,10 +128,7 @@ class PerceptionNode(Node):
         self._scan.publish(conversions.scan_message_of(stamp, result.scan))
         self._stamp = stamp
         self._maps_due = result.map_stamp == stamp
-        if self._vision.get_subscription_count() and _due(
-            self._vision_stamp, stamp, self._config.vision_period
-        ):
-            self._publish_vision(stamp)
+        self._publish_pictures(stamp)
 
     def _publish_due_maps(self) -> None:
         """Maps follow when the next frame has come: all have read the messages of theirs by then.
@@ -151,12 +152,27 @@ class PerceptionNode(Node):
             grid = conversions.grid_message_of(stamp, self._core.navigation_map())
             self._navigation_map.publish(grid)
 
-    def _publish_vision(self, stamp: int) -> None:
-        picture = self._core.vision_image()
-        if picture is None:
-            return
-        self._vision_stamp = stamp
-        self._vision.publish(conversions.image_message_of(stamp, frames.CAMERA_OPTICAL, picture))
+    def _publish_pictures(self, stamp: int) -> None:
+        """Those that somebody has subscribed, at most one per vision period each."""
+        if self._picture_due(self._vision, stamp):
+            self._publish_picture(self._vision, frames.CAMERA_OPTICAL, self._core.vision_image())
+        if self._picture_due(self._birdseye, stamp):
+            self._publish_picture(self._birdseye, frames.BASE, self._core.birdseye_image())
+
+    def _publish_picture(
+        self, publisher: Publisher, frame: str, picture: NDArray[np.uint8] | None
+    ) -> None:
+        if picture is not None:
+            stamp = self._picture_stamps[publisher.topic]
+            publisher.publish(conversions.image_message_of(stamp, frame, picture))
+
+    def _picture_due(self, publisher: Publisher, stamp: int) -> bool:
+        """Whether it is subscribed and its period has passed; the next one counts from now then."""
+        last = self._picture_stamps.get(publisher.topic)
+        due = publisher.get_subscription_count() and _due(last, stamp, self._config.vision_period)
+        if due:
+            self._picture_stamps[publisher.topic] = stamp
+        return bool(due)
 
     def _on_pause_check(self) -> None:
         """When no frames arrive, publish the world map that includes the last one.

@@ -19,6 +19,7 @@ from rover_common.types import (
     PolarArray,
     Run,
 )
+from rover_perception.camera.birdseye import birdseye_image
 from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import Segmentation, ground_columns, rock_mask
 from rover_perception.camera.vision import vision_image
@@ -80,7 +81,7 @@ class Perception:
         scan = run("free_scan", free_scan, projection, columns, max_range)
         nav = run("nav_polar", polar_array, *ground)
         rock = run("rock_polar", polar_array, rocks.x, rocks.y)
-        self._segmentation = Segmentation(image, mask, columns)
+        self._segmentation = Segmentation(image, mask, columns, projection)
         return self._result(frame, scan, nav, rock)
 
     @property
@@ -91,6 +92,12 @@ class Perception:
     def vision_image(self) -> NDArray[np.uint8] | None:
         """The newest image (height, width, 3) RGB with what its pixels show; None without one."""
         return None if self._segmentation is None else vision_image(self._segmentation)
+
+    def birdseye_image(self) -> NDArray[np.uint8] | None:
+        """What the newest image shows from above; None without one."""
+        if self._segmentation is None:
+            return None
+        return birdseye_image(self._segmentation, self._config.max_range)
 
     @property
     def evidence(self) -> EvidenceGrid:

@@ -225,26 +225,26 @@ def test_a_new_run_starts_a_new_map_and_its_messages_carry_its_number(ros, peer)
     assert (after[15:25] >= 0).any()
 
 
-def test_the_vision_image_is_not_drawn_without_a_subscriber(ros, peer, monkeypatch):
+@pytest.mark.parametrize("picture", ["vision_image", "birdseye_image"])
+def test_a_picture_is_not_drawn_without_a_subscriber(ros, peer, monkeypatch, picture):
     drawn = []
-    monkeypatch.setattr(perception, "vision_image", drawn.append)
+    monkeypatch.setattr(perception, picture, lambda *values: drawn.append(values))
     for index in range(3):
         peer.send(1_000_000_000 + index * 300_000_000)
         assert ros.spin_until(lambda index=index: len(peer.got[topics.FREE_SCAN]) == index + 1)
     assert drawn == []
 
 
-def test_the_vision_image_is_published_for_subscribers(ros, peer):
-    peer.listen(RockTrackArray, topics.ROCKS, qos.LATCHED)
-    images = peer.listen(Image, topics.VISION_IMAGE, qos.VIEW)
-    assert ros.spin_until(lambda: peer.node.count_subscribers(topics.VISION_IMAGE) > 0)
+@pytest.mark.parametrize(
+    ("topic", "frame"),
+    [(topics.VISION_IMAGE, frames.CAMERA_OPTICAL), (topics.BIRDSEYE_IMAGE, frames.BASE)],
+)
+def test_a_picture_is_published_for_subscribers(ros, peer, topic, frame):
+    images = peer.listen(Image, topic, qos.VIEW)
+    assert ros.spin_until(lambda: peer.node.count_subscribers(topic) > 0)
     stamps = iter(range(1_000_000_000, 60_000_000_000, 300_000_000))
-
-    def shown() -> bool:
-        peer.send(next(stamps))
-        return bool(images)
-
-    assert ros.spin_until(shown)
+    assert ros.spin_until(lambda: images or peer.send(next(stamps)))
     image = conversions.image_of(images[0])
+    assert images[0].header.frame_id == frame
     assert image.shape == (160, 320, 3)
-    assert image[150, 160, 2] > image[150, 160, 0]  # ground is shown in blue
+    assert image[140, 160, 2] > image[140, 160, 0]  # ground is shown in blue

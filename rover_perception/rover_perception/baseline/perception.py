@@ -20,6 +20,7 @@ from rover_perception.baseline.rock_list import RockList
 from rover_perception.baseline.thresholds import ground_mask, rock_mask
 from rover_perception.baseline.top_view import FIRST_ROW, field_of_view, rover_points, top_view
 from rover_perception.baseline.view_scan import nearest_obstacles
+from rover_perception.camera.birdseye import colored
 from rover_perception.camera.vision import paint
 from rover_perception.config import PerceptionConfig
 from rover_perception.frame_validation import FrameValidator
@@ -100,6 +101,14 @@ class BaselinePerception:
         obstacle = ~ground
         obstacle[:FIRST_ROW] = False
         return paint(self._image, ground, obstacle, rock_mask(self._image))
+
+    def birdseye_image(self) -> NDArray[np.uint8] | None:
+        """The newest image's top view (height, width, 3) RGB, coloured by the thresholds."""
+        if self._image is None:
+            return None
+        view = top_view(self._image)
+        ground = ground_mask(view)
+        return colored(ground, ~ground & field_of_view(), rock_mask(view))
 
     def _add(self, points: list[Points], pose: Pose, stamp: int) -> None:
         """Count the points that are near enough in the cells of the map."""

@@ -63,6 +63,7 @@ class Segmentation:
     image: NDArray[np.uint8]  # (height, width, 3) RGB
     rock_mask: NDArray[np.uint8]  # (height, width) 255 on rock samples, else 0
     columns: GroundColumns
+    projection: GroundProjection
 
 
 def rock_mask(image: NDArray[np.uint8], projection: GroundProjection) -> NDArray[np.uint8]:
