@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from rover_common.camera import ORIGIN_HEIGHT, PinholeCamera
 from rover_common.geometry import Pose, tilt_matrix
+from rover_common.vehicle import ROVER
 
 Array = NDArray[np.floating]
 
-# Beyond the suspension's stop the body pivots about two wheels, which lifts its origin.
-SUSPENSION_STOP = math.radians(1.4)  # [rad]
+# Beyond the suspension's stops the body pivots about two wheels, which lifts its origin.
 WHEEL_LEVER = 0.36  # [m] origin to wheel: mean of 0.386 front and 0.336 rear; 0.396 to the sides
 LOWEST_CAMERA = 0.1  # [m] below this the rover has turned over
 LEAST_UPRIGHT = 0.5  # cosine of the body's tilt: 60 degrees
@@ -38,7 +38,8 @@ class GroundProjection:
         tilt = tilt_matrix(pose)
         x, y, z = tilt @ (camera.forward, 0.0, camera.up)
         lifted = sum(
-            math.sin(max(0.0, abs(angle) - SUSPENSION_STOP)) for angle in (pose.pitch, pose.roll)
+            math.sin(max(0.0, abs(angle) - stop))
+            for angle, stop in ((pose.pitch, ROVER.pitch_stop), (pose.roll, ROVER.roll_stop))
         )
         height = z + ORIGIN_HEIGHT
         error = WHEEL_LEVER * lifted / max(height, LOWEST_CAMERA)

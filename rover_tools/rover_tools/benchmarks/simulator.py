@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +17,11 @@ from rover_common.ground_truth import load_truth
 from rover_simulator.recordings.recording import RecordedFrame, read_recording
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.ground import FLAT
-from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
+from rover_simulator.vehicle.vehicle import Vehicle
 from rover_simulator.world.generator import generate_world
 from rover_tools.benchmarks.pictures import COLLISION_TILT, RUNS, picture_agreement
+from rover_tools.benchmarks.recorded_commands import between, commands
+from rover_tools.benchmarks.tilt import table, tilt_agreement
 from rover_tools.benchmarks.wire_speed import wire_speed
 from rover_tools.evaluation.recordings import data_folder
 from rover_tools.evaluation.results import Result, summary
@@ -40,12 +41,14 @@ def bench(picture: Path | None, as_json: bool) -> None:
     data = data_folder()
     truth = data / "udacity" / "calibration_images" / "map_bw.png"
     if truth.exists():
-        result |= motion_errors(data) | picture_agreement(data, load_truth(truth), picture)
+        result |= motion_errors(data) | tilt_agreement(data, RUNS, truth)
+        result |= picture_agreement(data, load_truth(truth), picture)
     else:
         note(f"no recordings in {data}: only speed and memory are measured")
     fresh = subprocess.run([sys.executable, "-c", FRESH], check=True, capture_output=True)
     result |= json.loads(fresh.stdout) | wire_speed(SEED)
-    print_result(result, as_json, summary(result))
+    tilts = f"\n{table(result)}" if "tilt_floor" in result else ""
+    print_result(result, as_json, summary(result) + tilts)
 
 
 def motion_errors(data: Path) -> Result:
@@ -80,12 +83,8 @@ def windows(frames: tuple[RecordedFrame, ...]) -> Iterator[list[RecordedFrame]]:
 def window_error(frames: list[RecordedFrame]) -> tuple[float, float, float]:
     """Errors of speed [m/s], yaw [rad] and position [m] at the window's end."""
     vehicle = Vehicle(frames[0].pose)
-    vehicle.roll_on(frames[0].speed, _between(frames[0], frames[0]))
-    for frame, following in pairwise(frames):
-        controls = _between(frame, following)
-        steps = round((following.time - frames[0].time) / STEP) - round(
-            (frame.time - frames[0].time) / STEP
-        )
+    vehicle.roll_on(frames[0].speed, between(frames[0], frames[0]))
+    for _, controls, steps in commands(frames):
         for _ in range(steps):
             vehicle.step(controls, FLAT)
     last = frames[-1]
@@ -94,15 +93,6 @@ def window_error(frames: list[RecordedFrame]) -> tuple[float, float, float]:
         abs(vehicle.speed - last.speed),
         abs(wrap_angle(vehicle.pose.yaw - last.pose.yaw)),
         math.hypot(*offset),
-    )
-
-
-def _between(frame: RecordedFrame, following: RecordedFrame) -> Controls:
-    """Keys ramp their inputs, so that between two samples the input is about their mean."""
-    return Controls(
-        (frame.steering_angle + following.steering_angle) / 2,
-        (frame.throttle + following.throttle) / 2,
-        (frame.brake + following.brake) / 2,
     )
 
 
