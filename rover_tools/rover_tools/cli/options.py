@@ -135,6 +135,13 @@ way_home_option = click.option(
 )  # fmt: skip
 
 
+def picture_option(text: str) -> Callable[[F], F]:
+    """--out for a command that gives one picture."""
+    return click.option(
+        "--out", type=click.Path(dir_okay=False, path_type=Path), metavar="PNG", help=text
+    )
+
+
 def strategy_option(default: str) -> Callable[[F], F]:
     """By either name; a default in words, for help."""
     return click.option(
