@@ -1,12 +1,15 @@
 """Strategies by name, and from parameter files."""
 
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_tools.cli.main import rover
+from rover_tools.cli.main import main, rover
+from rover_tools.cli.mission_options import MissionOptions
 from rover_tools.evaluation.strategy import ParametersError, Strategy, StrategyError, choices
+from rover_tools.scoreboard import run
 
 SHIPPED = Path(__file__).resolve().parents[2] / "rover_bringup" / "config" / "rover.yaml"
 
@@ -58,11 +61,36 @@ def parsed(command: str, *arguments: str) -> dict[str, object]:
         return found.make_context(command, rest, parent=root).params
 
 
-def test_a_mission_takes_a_strategy_by_either_name():
+def options_of(command: str, *arguments: str) -> MissionOptions:
+    """What `rover demo` or `rover mission` makes of its options."""
+    given = parsed(command, *arguments)
+    return MissionOptions(**{each.name: given[each.name] for each in fields(MissionOptions)})
+
+
+@pytest.mark.parametrize("command", ["demo", "mission"])
+def test_a_mission_takes_a_strategy_by_either_name(command):
     for option in ("--explorer", "--strategy"):
-        strategy = parsed("mission", option, "wall_follow_b+bearing")["strategy"]
-        assert strategy == Strategy("wall_follow_b", "bearing")
-    assert parsed("mission")["strategy"] is None
+        options = options_of(command, option, "wall_follow_b+bearing")
+        assert options.chosen_strategy() == Strategy("wall_follow_b", "bearing")
+    assert options_of(command).chosen_strategy() == Strategy()
+
+
+def test_a_way_home_takes_the_place_of_the_strategys(tmp_path):
+    parameters = tmp_path / "mine.yaml"
+    parameters.write_text("decision_node: {ros__parameters: {explorer: frontier}}")
+    options = options_of("demo", "--params", str(parameters), "--way-home", "bearing")
+    assert options.chosen_strategy() == Strategy("frontier", "bearing")
+    options = options_of("mission", "--explorer", "tour+bearing", "--way-home", "shortest_path")
+    assert options.chosen_strategy() == Strategy("tour", "shortest_path")
+
+
+def test_all_strategies_of_a_scoreboard_take_its_way_home(monkeypatch, tmp_path):
+    jobs = []
+    monkeypatch.setattr(run, "run_scoreboard", lambda made, *_: jobs.extend(made))
+    names = "tour,frontier,tour+bearing"
+    arguments = ["--worlds", "1", "--strategies", names, "--way-home", "bearing"]
+    assert main(["scoreboard", *arguments, "--out", str(tmp_path)]) == 0
+    assert [job.strategy for job in jobs] == ["tour+bearing", "frontier+bearing"]
 
 
 def test_the_scoreboards_default_is_the_default_strategy():

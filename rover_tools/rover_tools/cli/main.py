@@ -20,6 +20,7 @@ TABLE = {
     "report": Entry(f"{COMMANDS}.report", "report, video and track of a recorded mission"),
     "replay": Entry(f"{COMMANDS}.replay", "play a recorded run again, and score the map"),
     "view": Entry(f"{COMMANDS}.view", "show a recording on the live page, with a time slider"),
+    "map": Entry(f"{COMMANDS}.map", "the world map of the running graph, without ros2"),
     "explain": Entry(f"{COMMANDS}.explain", "perception's stages on one image, as a picture"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "bench": Entry(

@@ -103,6 +103,20 @@ class StrategyType(click.ParamType):
             self.fail(f"{error}.")
 
 
+class WayHomeType(click.ParamType):
+    """A value of the parameter `way_home`."""
+
+    name = "way home"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        from rover_tools.evaluation.strategy import Strategy
+
+        try:
+            return Strategy().coming_home(value).way_home
+        except RoverError as error:
+            self.fail(f"{error}.")
+
+
 class StrategiesType(click.ParamType):
     """Strategies separated by commas, each once, by their shortest names."""
 
@@ -113,6 +127,19 @@ class StrategiesType(click.ParamType):
     ) -> tuple[str, ...]:
         parse = StrategyType().convert
         return tuple(dict.fromkeys(str(parse(part, param, ctx)) for part in value.split(",")))
+
+
+way_home_option = click.option(
+    "--way-home", type=WayHomeType(), metavar="NAME",
+    help="breadcrumbs, shortest_path or bearing, instead of the strategy's.",
+)  # fmt: skip
+
+
+def picture_option(text: str) -> Callable[[F], F]:
+    """--out for a command that gives one picture."""
+    return click.option(
+        "--out", type=click.Path(dir_okay=False, path_type=Path), metavar="PNG", help=text
+    )
 
 
 def strategy_option(default: str) -> Callable[[F], F]:

@@ -79,7 +79,7 @@ def draw_map(
         axes[1].set_title("map against the truth")
     for ax in axes:
         ax.plot(track[:, 0], track[:, 1], color=BLUE, linewidth=0.9)
-        ax.plot(*track[0], marker="o", color=BLUE, markersize=5)
+        ax.plot(*track[:1].T, marker="o", color=BLUE, markersize=5)
         if samples is not None and len(samples):
             ax.plot(*samples.T, "o", mfc="none", mec="black", markersize=9)
         if rocks:

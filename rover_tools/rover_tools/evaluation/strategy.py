@@ -32,12 +32,8 @@ class Strategy:
     def parse(cls, text: str) -> Strategy:
         """Raises StrategyError, which says what there is."""
         explorer, plus, way_home = text.strip().partition("+")
-        if not plus:
-            way_home = DEFAULTS.way_home
-        for name, value in (("explorer", explorer), ("way_home", way_home)):
-            if value not in choices(name):
-                raise StrategyError(f"no {name} '{value}'; there are {', '.join(choices(name))}")
-        return cls(explorer, way_home)
+        _check("explorer", explorer)
+        return cls(explorer).coming_home(way_home if plus else None)
 
     @classmethod
     def of_parameters(cls, path: Path) -> Strategy:
@@ -55,6 +51,13 @@ class Strategy:
             str(values.get("explorer", DEFAULTS.explorer)),
             str(values.get("way_home", DEFAULTS.way_home)),
         )
+
+    def coming_home(self, way_home: str | None) -> Strategy:
+        """With another way home, if one is given; raises StrategyError."""
+        if way_home is None:
+            return self
+        _check("way_home", way_home)
+        return replace(self, way_home=way_home)
 
     def __str__(self) -> str:
         default = self.way_home == DEFAULTS.way_home
@@ -74,3 +77,9 @@ def choices(parameter: str) -> tuple[str, ...]:
     (field,) = (field for field in fields(DecisionConfig) if field.name == parameter)
     found: tuple[str, ...] = field.metadata["parameter"].choices
     return found
+
+
+def _check(parameter: str, value: str) -> None:
+    found = choices(parameter)
+    if value not in found:
+        raise StrategyError(f"no {parameter} '{value}'; there are {', '.join(found)}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -19,6 +20,7 @@ STAGES_PER_ROW = 2
 STAGE_SIZE = (8.6, 4.3)  # [in]
 TITLE_HEIGHT = 0.45  # [in] of the whole picture's title
 DPI = 100
+NOTEBOOK_DPI, JPEG_QUALITY = 80, 75
 LEFT, BOTTOM, WIDTH, HEIGHT = 0.06, 0.27, 0.42, 0.58  # of axes in their stage, of its size
 NOTE, NAMES, LINE = 0.14, 0.085, 0.038  # heights of the note, the first name, and a line
 SIDES = ("ours", "baseline")
@@ -31,18 +33,28 @@ def stage_panels(source: ExplainedFrames) -> list[tuple[Panel, Panel]]:
     return list(zip(our_panels(ours), baseline_panels(baseline), strict=True))
 
 
-def draw_stages(pairs: Sequence[tuple[Panel, Panel]], title: str) -> Figure:
+class Picture(Figure):
+    """A figure that a notebook shows by itself, without pyplot."""
+
+    def _repr_jpeg_(self) -> bytes:
+        """Smaller than PNG, for what holds photographs."""
+        file = io.BytesIO()
+        self.savefig(file, format="jpeg", dpi=NOTEBOOK_DPI, pil_kwargs={"quality": JPEG_QUALITY})
+        return file.getvalue()
+
+
+def draw_stages(pairs: Sequence[tuple[Panel, Panel]], title: str = "") -> Picture:
     """Two stages in a row."""
     columns = min(STAGES_PER_ROW, len(pairs))
     rows = -(-len(pairs) // columns)
-    heights = TITLE_HEIGHT, STAGE_SIZE[1] * rows
-    figure = Figure(figsize=(STAGE_SIZE[0] * columns, sum(heights)), dpi=DPI)
+    heights = TITLE_HEIGHT if title else 0.01, STAGE_SIZE[1] * rows
+    figure = Picture(figsize=(STAGE_SIZE[0] * columns, sum(heights)), dpi=DPI)
     head, body = np.asarray(figure.subfigures(2, height_ratios=heights))
     head.text(0.5, 0.3, title, fontsize=13, ha="center")
     parts = np.ravel(body.subfigures(rows, columns, wspace=0.01, hspace=0.02))
-    for number, (part, pair) in enumerate(zip(parts, pairs, strict=False), 1):
+    for part, pair in zip(parts, pairs, strict=False):
         part.set_facecolor(BACKGROUND)
-        part.text(0.5, 0.94, f"{number}  {pair[0].stage}", fontsize=12, weight="bold", ha="center")
+        part.text(0.5, 0.94, pair[0].title, fontsize=12, weight="bold", ha="center")
         for side, panel in enumerate(pair):
             _draw_panel(part, side, panel)
     return figure
@@ -62,4 +74,4 @@ def _draw_panel(part: SubFigure, side: int, panel: Panel) -> None:
     part.text(middle, BOTTOM + HEIGHT + 0.02, SIDES[side], fontsize=9, ha="center")
     part.text(middle, NOTE, panel.note, fontsize=8.5, ha="center")
     for line, name in enumerate(panel.names):
-        part.text(middle, NAMES - line * LINE, name, fontsize=7, ha="center", family="monospace")
+        part.text(middle, NAMES - line * LINE, name, fontsize=6.5, ha="center", family="monospace")

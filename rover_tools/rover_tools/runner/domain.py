@@ -21,17 +21,25 @@ class DomainError(RoverError):
     """ROS_DOMAIN_ID is no domain, or every domain is held by another run."""
 
 
+def chosen_domain() -> int | None:
+    """ROS_DOMAIN_ID, or None where it is not set; raises DomainError."""
+    chosen = os.environ.get("ROS_DOMAIN_ID")
+    if not chosen:
+        return None
+    if not (chosen.isdecimal() and int(chosen) <= HIGHEST):
+        raise DomainError(f"ROS_DOMAIN_ID={chosen} is no domain: 0 to {HIGHEST}")
+    return int(chosen)
+
+
 @contextmanager
 def reserved_domain() -> Iterator[int]:
     """ROS_DOMAIN_ID where it is set; otherwise a free domain, held until the block ends.
 
     Raises DomainError.
     """
-    chosen = os.environ.get("ROS_DOMAIN_ID")
-    if chosen:
-        if not (chosen.isdecimal() and int(chosen) <= HIGHEST):
-            raise DomainError(f"ROS_DOMAIN_ID={chosen} is no domain: 0 to {HIGHEST}")
-        yield int(chosen)
+    chosen = chosen_domain()
+    if chosen is not None:
+        yield chosen
         return
     with free_domain() as domain:
         yield domain

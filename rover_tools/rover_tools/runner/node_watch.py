@@ -67,6 +67,13 @@ class GraphWatch(NodeInDomain):
             time.sleep(0.02)
         return None if self.grid is None else conversions.grid_of(self.grid)
 
+    def wait_rocks(self, timeout: float) -> tuple[RockTrack, ...]:
+        """The rocks once any message of them has come; none where none does."""
+        end = time.monotonic() + timeout
+        while self._rocks is None and time.monotonic() < end:
+            time.sleep(0.02)
+        return self.rocks()
+
     def rocks(self) -> tuple[RockTrack, ...]:
         return () if self._rocks is None else conversions.rocks_of(self._rocks)
 

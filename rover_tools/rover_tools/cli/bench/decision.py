@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING
 import click
 
 from rover_simulator.options import fps_option, map_option, size_option, time_limit_option
-from rover_tools.cli.options import json_option, out_option, seeds_option, strategy_option
+from rover_tools.cli.options import (
+    json_option,
+    out_option,
+    seeds_option,
+    strategy_option,
+    way_home_option,
+)
 
 if TYPE_CHECKING:
     from rover_tools.evaluation.strategy import Strategy
@@ -21,6 +27,7 @@ FPS = 12.5  # [1/s] half of the usual rate, in half of the time: a frame costs t
 @map_option("This map's canyon instead; the seeds draw its samples.")
 @size_option()
 @strategy_option("tour")
+@way_home_option
 @fps_option(FPS)
 @time_limit_option(900.0, "Simulated time for each mission [s].")
 @out_option
@@ -30,6 +37,7 @@ def command(
     map_file: Path | None,
     size: float,
     strategy: Strategy | None,
+    way_home: str | None,
     fps: float,
     time_limit: float,
     out: Path | None,
@@ -50,6 +58,8 @@ def command(
     """
     from rover_simulator.options import WorldOptions
     from rover_tools.benchmarks.decision import bench
+    from rover_tools.evaluation.strategy import Strategy
 
     worlds = [WorldOptions(seed, size, map_file) for seed in seeds]
-    bench(worlds, strategy, fps, time_limit, out, as_json)
+    chosen = (strategy or Strategy()).coming_home(way_home)
+    bench(worlds, chosen, fps, time_limit, out, as_json)

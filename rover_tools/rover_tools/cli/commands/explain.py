@@ -11,7 +11,7 @@ import click
 
 from rover_common.command_line import Real, Whole
 from rover_simulator.options import LONGEST
-from rover_tools.cli.options import FILE_OR_FOLDER
+from rover_tools.cli.options import FILE_OR_FOLDER, picture_option
 from rover_tools.output import note
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -34,9 +34,7 @@ def _tilt_option(name: str, positive: str) -> Callable[[F], F]:
               help="Of a run: the newest frame then, seconds after the first.")  # fmt: skip
 @_tilt_option("pitch", "positive with the nose down")
 @_tilt_option("roll", "positive with the right side down")
-@click.option("--out", type=click.Path(dir_okay=False, path_type=Path), metavar="PNG",
-              help="The picture's file.  [default: explain.png in a new folder in ./results]"
-              )  # fmt: skip
+@picture_option("The picture's file.  [default: explain.png in a new folder in ./results]")
 def command(
     path: Path,
     number: int | None,

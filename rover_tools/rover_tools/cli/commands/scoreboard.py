@@ -15,6 +15,7 @@ from rover_tools.cli.options import (
     json_option,
     out_option,
     seeds_option,
+    way_home_option,
 )
 from rover_tools.output import result_folder
 
@@ -29,6 +30,7 @@ DEFAULT_WORLDS = (1, 2, 3, 4)
 @seeds_option("1-4", "Seeds that draw the samples on the map")
 @click.option("--strategies", type=StrategiesType(), default="tour", show_default=True,
               metavar="NAMES", help=f"Strategies separated by commas, each {SYNTAX}.")  # fmt: skip
+@way_home_option
 @size_option()
 @fps_option()
 @time_limit_option(900.0, "Give a mission up after this simulated time [s].")
@@ -44,6 +46,7 @@ def command(
     map_file: Path | None,
     seeds: tuple[int, ...],
     strategies: tuple[str, ...],
+    way_home: str | None,
     size: float,
     fps: float,
     time_limit: float,
@@ -66,11 +69,14 @@ def command(
       ./rover scoreboard --map docs/examples/map.png --seeds 1-20
       ./rover scoreboard --worlds 1-20 --out results/s1
     """
+    from rover_tools.evaluation.strategy import Strategy
     from rover_tools.scoreboard.job import Ground, make_jobs
     from rover_tools.scoreboard.run import Engine, run_scoreboard
 
     if worlds is None:
         worlds = () if map_file else DEFAULT_WORLDS
+    named = (str(Strategy.parse(name).coming_home(way_home)) for name in strategies)
+    strategies = tuple(dict.fromkeys(named))
     ground = None if map_file is None else Ground.load(map_file)
     jobs = make_jobs(worlds, ground, seeds, strategies, size=size, fps=fps, time_limit=time_limit)
     folder = result_folder("scoreboard", out)
