@@ -12,7 +12,7 @@ BASE = "RoverError"
 def error_classes() -> dict[str, list[set[str]]]:
     """Names of the bases of every class whose name ends in Error, by the class's name."""
     found: dict[str, list[set[str]]] = {}
-    for path in ROOT.glob("rover_*/rover_*/**/*.py"):
+    for path in ROOT.glob("*_*/*_*/**/*.py"):
         for node in ast.walk(ast.parse(path.read_text())):
             # A class without a base is an event that tells of an error, not an exception.
             if isinstance(node, ast.ClassDef) and node.name.endswith("Error") and node.bases:

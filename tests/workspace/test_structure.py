@@ -57,6 +57,7 @@ ROSDEP_KEYS = {
     "engineio": "python3-engineio",
     "eventlet": "python3-eventlet",
     "websocket": "python3-websocket",
+    "mujoco": "python3-mujoco-core-pip",
     "embreex": "python3-embreex-pip",
     "statemachine": "python3-python-statemachine-pip",
     "aiohttp": "python3-aiohttp",

@@ -1,0 +1,1 @@
+"""The second robot in its maze: physics, sensors, and the node that speaks for them."""

@@ -1,0 +1,1 @@
+"""The maze and the robot as a model of MuJoCo."""

@@ -1,0 +1,1 @@
+"""What the robot measures, with the errors of the real sensors."""

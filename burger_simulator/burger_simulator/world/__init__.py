@@ -1,0 +1,1 @@
+"""Mazes: what stands where, drawn from a seed."""
