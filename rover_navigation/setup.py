@@ -14,7 +14,7 @@ setup(
     zip_safe=True,
     maintainer="Rover maintainers",
     maintainer_email="maintainers@rover.example",
-    description="Costmap, roadmap, frontiers, tours, path tracking and recovery.",
+    description="Costmap, roadmap, frontiers, tours, path tracking, recovery, embedded navigator.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
 )

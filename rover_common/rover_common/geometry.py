@@ -39,6 +39,23 @@ def distance_between(a: Pose, b: Pose) -> float:
     return math.hypot(a.x - b.x, a.y - b.y)
 
 
+def compose(frame: Pose, pose: Pose) -> Pose:
+    """A pose that is given in `frame`, in the frame in which `frame` itself is given; planar."""
+    cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
+    return Pose(
+        frame.x + cos * pose.x - sin * pose.y,
+        frame.y + sin * pose.x + cos * pose.y,
+        wrap_angle(frame.yaw + pose.yaw),
+    )
+
+
+def inverse(frame: Pose) -> Pose:
+    """The frame in which `frame` is given, as seen from it; planar."""
+    cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
+    x = -cos * frame.x - sin * frame.y
+    return Pose(x, sin * frame.x - cos * frame.y, wrap_angle(-frame.yaw))
+
+
 def rotation_matrix(pose: Pose) -> NDArray[np.float64]:
     """Rotation (3, 3) from base_link to the map frame."""
     cy, sy = math.cos(pose.yaw), math.sin(pose.yaw)

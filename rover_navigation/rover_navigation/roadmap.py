@@ -13,8 +13,6 @@ from rover_navigation.costmap import Costmap
 from rover_navigation.grid_graph import grid_graph, node_numbers, path_nodes
 from rover_navigation.scale import Scale
 
-COARSE = 2  # cells of the map per cell of the graph, in both directions
-
 
 @dataclass(frozen=True)
 class ShortestPaths:
@@ -25,7 +23,7 @@ class ShortestPaths:
 
 
 class Roadmap:
-    """Nodes are drivable cells of the coarse grid.
+    """Nodes are drivable cells of a grid as coarse as the scale says.
 
     `drivable` and `wide` (rows, cols): the cells that are nodes, and those with clearance on all
     sides; `numbers` (rows, cols): the node of each cell, -1 where there is none; `x` and `y`
@@ -33,17 +31,17 @@ class Roadmap:
     """
 
     def __init__(self, costmap: Costmap, scale: Scale) -> None:
-        fine = costmap.geometry
+        fine, cells = costmap.geometry, scale.roadmap_cells
         self.geometry = GridGeometry(
-            fine.resolution * COARSE,
-            fine.rows // COARSE,
-            fine.cols // COARSE,
+            fine.resolution * cells,
+            fine.rows // cells,
+            fine.cols // cells,
             fine.origin_x,
             fine.origin_y,
         )
-        clearance = np.minimum.reduce(_parts(costmap.clearance))
-        edge_clearance = np.minimum.reduce(_parts(costmap.edge_clearance))
-        free = np.logical_and.reduce(_parts(costmap.free))
+        clearance = np.minimum.reduce(_parts(costmap.clearance, cells))
+        edge_clearance = np.minimum.reduce(_parts(costmap.edge_clearance, cells))
+        free = np.logical_and.reduce(_parts(costmap.free, cells))
         self.drivable = free & (clearance >= scale.padding)
         self.wide = self.drivable & (edge_clearance >= scale.padding)
         speed = scale.travel_speed_per_clearance * edge_clearance
@@ -73,9 +71,9 @@ class Roadmap:
         return np.stack([self.x[nodes], self.y[nodes]], axis=1)
 
 
-def _parts(cells: NDArray) -> list[NDArray]:
-    """Of each cell of the graph the first of its cells, the second, and so on.
+def _parts(values: NDArray, cells: int) -> list[NDArray]:
+    """Of each cell of the graph the first of its `cells` x `cells`, the second, and so on.
 
     To reduce these costs a fortieth of what `reshape` and a reduction over two short axes cost.
     """
-    return [cells[row::COARSE, col::COARSE] for row in range(COARSE) for col in range(COARSE)]
+    return [values[row::cells, col::cells] for row in range(cells) for col in range(cells)]

@@ -14,6 +14,7 @@ class Scale:
 
     # Body and sensors, on the costmap
     padding: float  # [m] from obstacles, of every cell that may be driven
+    roadmap_cells: int  # cells of the map per cell of the roadmap, in both directions: 1 or 2
     blind_radius: float  # [m] around the robot where its sensors cannot see: free when unknown
     trail_radius: float  # [m] around where the robot has been: free when unknown
     under_body_radius: float  # [m] the same, free whatever the map says
@@ -88,3 +89,8 @@ class Scale:
     breadcrumb_link: float  # [m] breadcrumbs this near to each other are linked in any case
     breadcrumb_shortcut: float  # [m] and up to here where the map shows free ground in between
     shortcut_clearance: float  # [m] from obstacles, of such a shortcut
+
+    @property
+    def inflation(self) -> float:
+        """[m] from obstacles, beyond which more clearance makes the robot no faster."""
+        return self.travel_speed_max / self.travel_speed_per_clearance

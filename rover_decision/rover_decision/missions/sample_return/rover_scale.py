@@ -7,6 +7,7 @@ from rover_navigation.scale import Scale
 
 ROVER_SCALE = Scale(
     padding=0.55,  # half the rover's width, and what a wheel may stray
+    roadmap_cells=2,
     blind_radius=ROVER.camera_blind_radius,
     trail_radius=0.5,
     under_body_radius=0.25,  # no more, because its wheels pass rocks 0.44 m aside

@@ -1,0 +1,65 @@
+"""The burger's sizes, as the planner needs them. Cells of its map have 0.05 m."""
+
+from rover_common.burger import BURGER
+from rover_navigation.scale import Scale
+
+INFLATION = 0.25  # [m] from obstacles up to which ground costs more: lanes of 0.61 m stay cheap
+
+BURGER_SCALE = Scale(
+    padding=BURGER.body_radius,
+    roadmap_cells=1,  # in a gap of 0.45 m few cells are drivable
+    blind_radius=BURGER.body_radius,
+    trail_radius=0.10,
+    under_body_radius=0.03,  # no more, for walls are thinner than a cell
+    hidden_side=0.0,  # a lidar sees walls from near: what it has not seen it has not passed
+    travel_speed_per_clearance=BURGER.cruise_speed / INFLATION,
+    travel_speed_min=0.05,
+    travel_speed_max=BURGER.cruise_speed,
+    turn_rate=BURGER.cruise_turn,
+    turn_seconds=0.3,
+    frontier_length=0.15,
+    strip_depth=0.10,
+    frontier_reach=1.0,
+    unknown_depth=0.6,
+    body_reach=0.5,
+    wide_reach=0.3,
+    seconds_per_area=15.0,
+    stop_seconds=1.0,
+    target_reach=0.3,
+    search_distances=(1.5,),
+    search_range=2.5,
+    search_field=BURGER.thermal_field / 2,
+    search_slack=0.1,
+    search_cell=0.10,
+    base_reach=0.10,
+    same_goal=0.3,
+    goal_reached=0.15,
+    goal_field=BURGER.thermal_field / 2,
+    goal_underfoot=0.15,
+    goal_radius_min=0.15,
+    goal_radius_per_distance=0.2,
+    goal_afar=1.0,
+    path_clearance=BURGER.body_radius,
+    smoothing_min=0.03,
+    smoothing_max=0.10,
+    path_speed_per_clearance=BURGER.cruise_speed / INFLATION,
+    path_speed_min=0.08,
+    lookahead_min=0.15,
+    lookahead_max=0.4,
+    horizon=0.5,
+    path_end=0.05,
+    stop_margin=0.05,
+    progress_distance=0.05,
+    stall_distance=0.01,
+    clear_distance=0.3,
+    back_distance=0.10,
+    safe_pose_reached=0.05,
+    safe_pose_spacing=0.05,
+    blocked_ahead=0.25,
+    blocked_radius=0.20,
+    same_stop=0.2,
+    breadcrumb_spacing=0.05,
+    breadcrumb_link=0.15,
+    breadcrumb_shortcut=0.8,
+    shortcut_clearance=BURGER.body_radius,
+)

@@ -1,0 +1,1 @@
+"""From a path to a velocity: sampled predictive control, goals, recoveries."""

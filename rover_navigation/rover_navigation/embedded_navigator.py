@@ -1,0 +1,157 @@
+"""The navigator of its own: localisation, map, planner and controller in one step, without ROS."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.burger import BurgerModel
+from rover_common.geometry import Pose, compose
+from rover_common.sensor_types import SensorBatch, Twist
+from rover_common.types import GridMap
+from rover_navigation.control.goal_run import GoalRun
+from rover_navigation.embedded_goal import EmbeddedGoal
+from rover_navigation.hazards import Hazards
+from rover_navigation.localization.localizer import Localizer
+from rover_navigation.navigator import GoalStatus
+from rover_navigation.navigator_config import NavigatorConfig
+from rover_navigation.path_planner import Ground
+from rover_navigation.scale import Scale
+from rover_navigation.types import NO_POINTS
+
+
+@dataclass(frozen=True)
+class NavigatorOutput:
+    """What one step says."""
+
+    stamp: int  # [ns] of the batch
+    twist: Twist | None  # None while there is no goal: then another controller may drive
+    pose: Pose | None  # of base_footprint in the map; None before there is a map
+    covariance: NDArray[np.float64]  # (3, 3) of x, y [m], yaw [rad]
+    map_to_odom: Pose | None  # the odom frame in the map
+    relocations: int  # times so far that the pose was lost and found by search
+    map: GridMap | None  # when a new one is due
+    path: NDArray[np.float64]  # (n, 2) [m] to the goal, for people
+    why: str  # what it does, or why it does not drive
+
+
+class EmbeddedNavigator:
+    """A `Navigator` in the same process: `step` with every batch, at the controller's 20 Hz.
+
+    The same batches and goals with the same seed give the same outputs, bit for bit.
+    """
+
+    def __init__(
+        self, model: BurgerModel, scale: Scale, config: NavigatorConfig, seed: int
+    ) -> None:
+        self._model = model
+        self._scale = scale
+        self._config = config
+        self._localizer = Localizer(model, config.resolution)
+        self._hazards = Hazards()
+        self._run = GoalRun(model, scale, config, np.random.default_rng(seed))
+        self._goal: EmbeddedGoal | None = None
+        self._stamp = 0
+        self._last_scan = self._last_odometry = 0  # [ns]
+        self._next_map = 0  # [ns]
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether there is a map and a pose in it."""
+        return self._localizer.is_ready and not self._localizer.is_lost
+
+    def go_to(self, pose: Pose, tolerance: float) -> EmbeddedGoal:
+        """Drive to a pose of the map; a goal that cannot be driven to has failed at once."""
+        goal = EmbeddedGoal(pose, tolerance)
+        if self._goal is not None:
+            self._goal.end(GoalStatus.CANCELLED, "replaced by another goal")
+        self._goal = None
+        here = self._localizer.buffer.latest()
+        if here is None or not self.is_ready:
+            goal.end(GoalStatus.FAILED, "there is no pose in a map yet")
+        elif reason := self._ground(here).refusal(pose, tolerance):
+            goal.end(GoalStatus.FAILED, reason)
+        else:
+            self._goal = goal
+            self._run.begin(goal)
+        return goal
+
+    def set_hazards(self, hazards: GridMap) -> None:
+        """The map with blocked places in it, which paths keep off; replaces the one before."""
+        self._hazards.set(hazards, self._localizer.map.grid())
+        self._run.replan()
+
+    def pose_at(self, stamp: int) -> Pose | None:
+        """Of base_footprint in the map at a stamp [ns]; None where the odometry does not reach."""
+        return self._localizer.buffer.pose_at(stamp)
+
+    def step(self, batch: SensorBatch) -> NavigatorOutput:
+        """Take what the sensors said, and drive on."""
+        self._stamp = batch.stamp
+        self._note_inputs(batch)
+        self._localizer.update(batch)
+        pose = self._pose_now(batch)
+        twist, why = self._drive(pose, batch.stamp)
+        return NavigatorOutput(
+            batch.stamp,
+            twist,
+            pose,
+            self._localizer.covariance,
+            self._localizer.map_to_odom,
+            self._localizer.relocations,
+            self._map_when_due(batch.stamp),
+            NO_POINTS if twist is None else self._run.path,
+            why,
+        )
+
+    def _drive(self, pose: Pose | None, stamp: int) -> tuple[Twist | None, str]:
+        """The velocity, None where there is no goal, and why it is that."""
+        trouble = self._trouble(stamp)
+        goal = self._goal
+        if goal is None or goal.status.final or pose is None:
+            self._goal = None
+            return None, trouble or "no goal"
+        if trouble:
+            self._run.hold()
+            return Twist(), trouble
+        twist = self._run.step(stamp, pose, self._ground, self._localizer.free_side())
+        if goal.status.final:
+            self._goal = None
+            return None, goal.reason or goal.status.value
+        return twist, self._run.why
+
+    def _trouble(self, stamp: int) -> str:
+        """Why nothing can be driven now; empty when it can."""
+        timeout = self._config.input_timeout
+        for name, last in (("scan", self._last_scan), ("odometry", self._last_odometry)):
+            if (stamp - last) / 1e9 > timeout:
+                return f"no {name} for {timeout:g} s"
+        if not self._localizer.is_ready:
+            return "standing still for the first map"
+        return "searching the pose" if self._localizer.is_lost else ""
+
+    def _note_inputs(self, batch: SensorBatch) -> None:
+        if batch.scans:
+            self._last_scan = batch.stamp
+        if batch.odometry:
+            self._last_odometry = batch.stamp
+
+    def _pose_now(self, batch: SensorBatch) -> Pose | None:
+        """The newest pose, carried on to the batch's stamp."""
+        pose, newest = self._localizer.buffer.latest(), self._localizer.newest_odometry
+        if pose is None or newest is None:
+            return None
+        seconds = min(max(0.0, (batch.stamp - newest.stamp) / 1e9), 0.1)
+        moved = Pose(newest.twist.linear * seconds, 0.0, newest.twist.angular * seconds)
+        return compose(pose, moved)
+
+    def _ground(self, body: Pose) -> Ground:
+        return Ground(self._localizer.map.grid(), self._hazards, body, self._scale)
+
+    def _map_when_due(self, stamp: int) -> GridMap | None:
+        if not self._localizer.is_ready or stamp < self._next_map:
+            return None
+        self._next_map = stamp + round(self._config.map_period * 1e9)
+        return self._localizer.map.grid()

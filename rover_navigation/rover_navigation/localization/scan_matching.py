@@ -1,0 +1,58 @@
+"""The pose at which a scan lies best on the walls of a map: Gauss-Newton on its distance field.
+
+The residual of a point is its distance from the nearest wall, as in Hector SLAM's and likelihood
+field models; the pose that the odometry predicts is one more measurement.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rover_common.geometry import Pose, wrap_angle
+from rover_navigation.localization.distance_field import DistanceField
+from rover_navigation.localization.scan_points import transformed
+
+POINT_SIGMA = 0.03  # [m] of a point from the middle of its wall's cells
+# Neighbouring rays share the error of the cells that they hit, so that they count for fewer.
+INDEPENDENT_SHARE = 0.2
+KERNEL = 0.08  # [m] beyond which a point counts less and less (Cauchy)
+ITERATIONS = 12
+CONVERGED = 2e-4  # [m], [rad]
+
+
+@dataclass(frozen=True)
+class Match:
+    """A pose, and how sure it is."""
+
+    pose: Pose
+    covariance: NDArray[np.float64]  # (3, 3) x, y [m], yaw [rad]
+
+
+def match(
+    points: NDArray[np.float64],
+    field: DistanceField,
+    predicted: Pose,
+    covariance: NDArray[np.float64],
+) -> Match:
+    """points (n, 2) [m] in base_footprint; covariance (3, 3) of the prediction."""
+    prior = np.linalg.inv(covariance)
+    start = np.array([predicted.x, predicted.y, predicted.yaw])
+    state, information = start.copy(), prior
+    for _ in range(ITERATIONS):
+        placed = transformed(points, Pose(*state))
+        distance, slope = field.with_slope(placed)
+        arm = placed - state[:2]  # its derivative by the yaw is arm turned by 90 degrees
+        turn = slope[:, 1] * arm[:, 0] - slope[:, 0] * arm[:, 1]
+        jacobian = np.column_stack([slope, turn])
+        weight = INDEPENDENT_SHARE / (POINT_SIGMA**2 * (1.0 + (distance / KERNEL) ** 2))
+        weighted = jacobian.T * weight
+        information = prior + weighted @ jacobian
+        step = np.linalg.solve(information, prior @ (start - state) - weighted @ distance)
+        state += step
+        if np.abs(step).max() < CONVERGED:
+            break
+    pose = Pose(float(state[0]), float(state[1]), wrap_angle(float(state[2])))
+    return Match(pose, np.linalg.inv(information))

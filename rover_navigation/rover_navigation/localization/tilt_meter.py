@@ -1,0 +1,60 @@
+"""How far the robot leans from the way it stood at the start."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import numpy as np
+
+from rover_common.geometry import angles_from_quaternion
+from rover_common.sensor_types import Imu
+
+SAMPLES = 400  # kept: some seconds at 100 Hz
+SETTLING = 1.0  # [s] in which the accelerometer corrects the gyro, where no orientation is measured
+
+
+class TiltMeter:
+    """Roll and pitch by stamp: the sensor's own, else from gyro and accelerometer."""
+
+    def __init__(self) -> None:
+        self._samples: deque[tuple[int, float, float]] = deque(maxlen=SAMPLES)
+        self._level = (0.0, 0.0)  # [rad] roll, pitch
+
+    def add(self, imu: Imu) -> None:
+        """One sample."""
+        if imu.orientation is not None and any(imu.orientation):
+            roll, pitch, _ = angles_from_quaternion(*imu.orientation)
+        else:
+            roll, pitch = self._filtered(imu)
+        self._samples.append((imu.stamp, roll, pitch))
+
+    def _filtered(self, imu: Imu) -> tuple[float, float]:
+        """Complementary filter: the gyro's fast changes on the accelerometer's mean."""
+        x, y, z = imu.linear_acceleration
+        roll, pitch = math.atan2(y, z), math.atan2(-x, math.hypot(y, z))
+        if not self._samples:
+            return roll, pitch
+        stamp, last_roll, last_pitch = self._samples[-1]
+        seconds = (imu.stamp - stamp) / 1e9
+        share = seconds / (seconds + SETTLING)
+        roll_rate, pitch_rate, _ = imu.angular_velocity
+        last_roll += roll_rate * seconds
+        last_pitch += pitch_rate * seconds
+        return last_roll + share * (roll - last_roll), last_pitch + share * (pitch - last_pitch)
+
+    def set_level(self, first: int, last: int) -> None:
+        """From here on level is how the robot stood between two stamps [ns]."""
+        self._level = self._mean(first, last) or self._level
+
+    def tilt(self, first: int, last: int) -> float:
+        """[rad] from level, the mean between two stamps [ns]; 0 where no sample tells."""
+        roll, pitch = self._mean(first, last) or self._level
+        return math.hypot(roll - self._level[0], pitch - self._level[1])
+
+    def _mean(self, first: int, last: int) -> tuple[float, float] | None:
+        inside = [sample[1:] for sample in self._samples if first <= sample[0] <= last]
+        if not inside:
+            return None
+        roll, pitch = np.mean(inside, axis=0)
+        return float(roll), float(pitch)
