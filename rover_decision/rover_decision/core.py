@@ -10,16 +10,39 @@ brakes until it has begun.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from enum import IntEnum
-from typing import Any, Protocol
+from typing import Any, Generic, Protocol, TypeVar
 
-from rover_common.types import SAFE_COMMAND, GridMap, Run
-from rover_decision.types import Decision, Frame, Overlay, Request
+from rover_common.types import GridMap, Run
+from rover_decision.types import Request
 from rover_navigation.plan_scheduler import MakePlan, MakeRequest, PlanScheduler, PlanStatus
 
 
-class Mission(Protocol):
+class CoreFrame(Protocol):
+    """What the core itself reads of a frame."""
+
+    @property
+    def stamp(self) -> int:
+        """[ns]"""
+
+    @property
+    def run(self) -> Run: ...
+
+    @property
+    def needs_plan(self) -> bool:
+        """Whether a plan is to be made of what is known at it."""
+
+
+FrameT = TypeVar("FrameT", bound=CoreFrame)
+DecisionT = TypeVar("DecisionT")
+PlanT = TypeVar("PlanT")
+OverlayT = TypeVar("OverlayT")
+FrameT_contra = TypeVar("FrameT_contra", bound=CoreFrame, contravariant=True)
+DecisionT_co = TypeVar("DecisionT_co", covariant=True)
+OverlayT_co = TypeVar("OverlayT_co", covariant=True)
+
+
+class Mission(Protocol[FrameT_contra, DecisionT_co, PlanT, OverlayT_co]):
     """What a mission offers to the core; an instance serves one run."""
 
     @property
@@ -36,29 +59,32 @@ class Mission(Protocol):
     def configure(self, config: Any) -> None:
         """Go on with other parameters from the next tick on."""
 
-    def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
+    def tick(self, frame: FrameT_contra, plans: PlanStatus[PlanT]) -> DecisionT_co:
         """Decide about one frame."""
 
-    def plan_request(self, frame: Frame) -> MakeRequest:
+    def wait_for_run(self) -> DecisionT_co:
+        """What to do until a new run begins: ask for it, and stand."""
+
+    def plan_request(self, frame: FrameT_contra) -> MakeRequest[Any]:
         """What a plan is to be made of, asked right after the frame's tick."""
 
     def request(self, request: Request) -> bool:
         """Whether the mission can do what it is asked for."""
 
     def limit_time(self, seconds: float) -> None:
-        """Be home within so many seconds from the first frame on."""
+        """Be over within so many seconds from the first frame on."""
 
-    def overlay(self) -> Overlay:
+    def overlay(self) -> OverlayT_co:
         """What it knows about places."""
 
 
-class DecisionCore:
+class DecisionCore(Generic[FrameT, DecisionT, PlanT, OverlayT]):
     """One robot's decisions, run after run."""
 
     def __init__(
         self,
-        make_mission: Callable[[], Mission],
-        make_plan: MakePlan,
+        make_mission: Callable[[], Mission[FrameT, DecisionT, PlanT, OverlayT]],
+        make_plan: MakePlan[Any, PlanT],
         plan_delay: float,
         lockstep: bool,
     ) -> None:
@@ -85,18 +111,17 @@ class DecisionCore:
         return self._mission.state
 
     @property
-    def mission(self) -> Mission:
+    def mission(self) -> Mission[FrameT, DecisionT, PlanT, OverlayT]:
         """The one of the run at hand."""
         return self._mission
 
-    def step(self, frame: Frame) -> Decision:
+    def step(self, frame: FrameT) -> DecisionT:
         """Decide about one frame."""
         self._follow_run(frame.run)
         if self._leaving:
-            command = replace(SAFE_COMMAND, new_run=True)
-            return Decision(command, self._mission.state, "waits for a new run")
+            return self._mission.wait_for_run()
         decision = self._mission.tick(frame, self._plans.status_at(frame.stamp))
-        if frame.map_stamp == frame.stamp:
+        if frame.needs_plan:
             self._plans.order(frame.stamp, self._mission.plan_request(frame))
         return decision
 
@@ -122,7 +147,10 @@ class DecisionCore:
         return self._mission.request(request)
 
     def configure(
-        self, config: Any, make_mission: Callable[[], Mission], make_plan: MakePlan
+        self,
+        config: Any,
+        make_mission: Callable[[], Mission[FrameT, DecisionT, PlanT, OverlayT]],
+        make_plan: MakePlan[Any, PlanT],
     ) -> None:
         """Other parameters: for the mission at hand, for those to come, and for the plans."""
         self._make_mission = make_mission
@@ -130,7 +158,7 @@ class DecisionCore:
         self._mission.configure(config)
 
     def limit_time(self, seconds: float) -> None:
-        """Let this mission be home within so many seconds from its first frame on."""
+        """Let this mission be over within so many seconds from its first frame on."""
         self._mission.limit_time(seconds)
 
     def close(self) -> None:

@@ -58,6 +58,11 @@ class Frame:
     def run(self) -> Run:
         return self.vehicle.run
 
+    @property
+    def needs_plan(self) -> bool:
+        """Whether a plan is to be made at it: its map is due."""
+        return self.map_stamp == self.stamp
+
 
 @dataclass(frozen=True)
 class Progress:

@@ -10,38 +10,45 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 from rover_common.types import GridMap
-from rover_navigation.types import Plan, PlanFailed, PlanRequest
+from rover_navigation.types import PlanFailed
 
 MAX_PENDING = 8  # orders whose map never came
 # [s] of wall time that lockstep waits for a plan, which takes 0.05 s: then the planner hangs.
 PATIENCE = 10.0
 
-MakeRequest = Callable[[GridMap], PlanRequest]
-MakePlan = Callable[[PlanRequest], Plan]
+RequestT = TypeVar("RequestT")
+PlanT = TypeVar("PlanT")
+MakeRequest = Callable[[GridMap], RequestT]
+MakePlan = Callable[[RequestT], PlanT]
 
 
 @dataclass
-class _Order:
+class _Order(Generic[RequestT, PlanT]):
     stamp: int  # [ns]
-    make_request: MakeRequest
-    future: Future[Plan] | None = None
+    make_request: MakeRequest[RequestT]
+    future: Future[PlanT] | None = None
 
 
 @dataclass(frozen=True)
-class PlanStatus:
+class PlanStatus(Generic[PlanT]):
     """What the planner has said up to a frame."""
 
-    plan: Plan | None = None  # the newest one that came
+    plan: PlanT | None = None  # the newest one that came
     failure: PlanFailed | None = None  # the newest answer, when it was no plan
 
 
-class PlanScheduler:
+class PlanScheduler(Generic[RequestT, PlanT]):
     """Takes orders and maps, hands out plans; a planner's failure is a value, not an exception."""
 
     def __init__(
-        self, plan: MakePlan, delay: float, lockstep: bool, patience: float = PATIENCE
+        self,
+        plan: MakePlan[RequestT, PlanT],
+        delay: float,
+        lockstep: bool,
+        patience: float = PATIENCE,
     ) -> None:
         """delay: [s] of frame time from the order to its effect; lockstep: wait for it then."""
         self._plan = plan
@@ -49,13 +56,13 @@ class PlanScheduler:
         self._lockstep = lockstep
         self._patience = patience
         self._pool = _pool()
-        self._orders: deque[_Order] = deque()
+        self._orders: deque[_Order[RequestT, PlanT]] = deque()
         self._map: tuple[int, GridMap] | None = None  # the newest
-        self._status = PlanStatus()
+        self._status: PlanStatus[PlanT] = PlanStatus()
         self.failures = 0  # in all
         self.last_failure = ""  # why the newest of them did not come
 
-    def use(self, plan: MakePlan) -> None:
+    def use(self, plan: MakePlan[RequestT, PlanT]) -> None:
         """Make the plans with another planner; those that are being made are not."""
         self._plan = plan
 
@@ -73,7 +80,7 @@ class PlanScheduler:
         """End the planner's thread; one that hangs is left to itself."""
         self._pool.shutdown(wait=False, cancel_futures=True)
 
-    def order(self, stamp: int, make_request: MakeRequest) -> None:
+    def order(self, stamp: int, make_request: MakeRequest[RequestT]) -> None:
         """Order a plan at a frame; its map, of the same stamp, may come before or after."""
         self._orders.append(_Order(stamp, make_request))
         if len(self._orders) > MAX_PENDING:
@@ -99,7 +106,7 @@ class PlanScheduler:
             self._orders.remove(order)
             self._take(PlanFailed(order.stamp, "its map did not come"))
 
-    def status_at(self, stamp: int) -> PlanStatus:
+    def status_at(self, stamp: int) -> PlanStatus[PlanT]:
         """What counts at a frame."""
         while self._orders and self._counts(self._orders[0], stamp):
             order = self._orders[0]
@@ -109,15 +116,15 @@ class PlanScheduler:
             self._take(self._outcome(order))
         return self._status
 
-    def _take(self, outcome: Plan | PlanFailed) -> None:
-        if isinstance(outcome, Plan):
-            self._status = PlanStatus(outcome)
-        else:
+    def _take(self, outcome: PlanT | PlanFailed) -> None:
+        if isinstance(outcome, PlanFailed):
             self._status = PlanStatus(self._status.plan, outcome)
             self.failures += 1
             self.last_failure = outcome.reason
+        else:
+            self._status = PlanStatus(outcome)
 
-    def _outcome(self, order: _Order) -> Plan | PlanFailed:
+    def _outcome(self, order: _Order[RequestT, PlanT]) -> PlanT | PlanFailed:
         assert order.future is not None
         try:
             return order.future.result(self._patience)
@@ -151,11 +158,13 @@ class PlanScheduler:
             order for order in self._orders if order.future is None or not order.future.cancel()
         )
 
-    def _counts(self, order: _Order, stamp: int) -> bool:
+    def _counts(self, order: _Order[RequestT, PlanT], stamp: int) -> bool:
         return stamp >= order.stamp + self._delay
 
 
-def _make(plan: MakePlan, make_request: MakeRequest, grid: GridMap) -> Plan:
+def _make(
+    plan: MakePlan[RequestT, PlanT], make_request: MakeRequest[RequestT], grid: GridMap
+) -> PlanT:
     """In the planner's thread."""
     return plan(make_request(grid))
 

@@ -12,15 +12,26 @@ from rover_common.geometry import Pose
 from rover_common.types import SAFE_COMMAND
 from rover_decision.missions.sample_return.chart import Event, State
 from rover_decision.missions.sample_return.states import GAP_SECONDS, JUMP
-from rover_decision.trouble import DETECTORS, Health, Limits, Trouble, first_trouble
+from rover_decision.trouble import (
+    DETECTORS,
+    INPUTS,
+    MOTION,
+    Health,
+    Limits,
+    Trouble,
+    first_trouble,
+)
 from rover_navigation.types import PlanFailed
 
-LIMITS = Limits(tilt=0.16, gap=1.0, jump=3.0, plan_age=3.0, map_age=3.0)
-WELL = Health(MIDDLE, gap=0.1, jump=0.1, stopped_moving=False, plan_age=0.5, map_age=0.5,
+LIMITS = Limits(tilt=0.16, gap=1.0, jump=3.0, plan_age=3.0, map_age=3.0, clock_error=0.5,
+                navigator_silent=0.5)  # fmt: skip
+WELL = Health(tilt=0.15, gap=0.1, jump=0.1, stopped_moving=False, plan_age=0.5, map_age=0.5,
               plan_failure=None)  # fmt: skip
 FAULTS = {
-    Trouble.tilted: {"pose": Pose(0.0, 0.0, 0.0, roll=-0.17)},
+    Trouble.tilted: {"tilt": 0.17},
     Trouble.input_gap: {"gap": 1.01},
+    Trouble.clock_apart: {"clock_error": 0.51},
+    Trouble.navigator_lost: {"navigator_silent": 0.51},
     Trouble.stopped_moving: {"stopped_moving": True},
     Trouble.planner_failed: {"plan_failure": PlanFailed(1, "it did not come")},
     Trouble.plan_stale: {"plan_age": 3.01},
@@ -50,8 +61,8 @@ def test_a_jump_of_the_pose_is_a_gap_of_the_input():
     assert first_trouble(replace(WELL, jump=3.1), LIMITS, Trouble) is Trouble.input_gap
 
 
-def test_each_trouble_is_an_event_that_says_the_same():
-    for trouble in DETECTORS:
+def test_each_trouble_of_the_rover_is_an_event_that_says_the_same():
+    for trouble in MOTION | INPUTS:
         assert Event[trouble.name].value == trouble.value
     assert set(DETECTORS) == set(Trouble)
 

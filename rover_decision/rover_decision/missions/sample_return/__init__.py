@@ -9,8 +9,12 @@ from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.explorers import SELECTIONS
 from rover_decision.missions.sample_return.mission import SampleReturnMission
 from rover_decision.missions.sample_return.rover_scale import ROVER_SCALE
+from rover_decision.types import Decision, Frame, Overlay
 from rover_navigation.planner import Planner
 from rover_navigation.selection import WholeTour
+from rover_navigation.types import Plan
+
+SampleReturnCore = DecisionCore[Frame, Decision, Plan, Overlay]
 
 
 def make_planner(config: DecisionConfig) -> Planner:
@@ -19,12 +23,12 @@ def make_planner(config: DecisionConfig) -> Planner:
     return Planner(ROVER_SCALE, selection(ROVER_SCALE))
 
 
-def configure(core: DecisionCore, config: DecisionConfig) -> None:
+def configure(core: SampleReturnCore, config: DecisionConfig) -> None:
     """Let a core of this mission go on with other parameters."""
     core.configure(config, partial(SampleReturnMission, config), make_planner(config).plan)
 
 
-def make_core(config: DecisionConfig, lockstep: bool) -> DecisionCore:
+def make_core(config: DecisionConfig, lockstep: bool) -> SampleReturnCore:
     """The decision core of this mission; lockstep: frames wait for their plans."""
     mission = partial(SampleReturnMission, config)
     return DecisionCore(mission, make_planner(config).plan, config.plan_delay, lockstep)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import Enum, IntEnum
 
 from statemachine import HistoryState, StateChart
 from statemachine import State as ChartState
+
+from rover_decision import statechart
+from rover_decision.statechart import StateMachine, Transition
 
 
 class State(IntEnum):
@@ -108,61 +109,20 @@ class MissionChart(StateChart):
     resume = paused.to(driving.phase)
 
 
-class Machine:
-    """The seam to the library: a current state, and events."""
+class Machine(StateMachine[State, Event]):
+    """Where the mission is; also whether it heads home."""
 
     def __init__(self) -> None:
-        self._chart = MissionChart()
-        self.state = State.IDLE
-        # Whether the rover heads home, or will when what interrupted that is over.
-        self.heading_home = False
+        super().__init__(MissionChart, State)
 
-    def handle(self, event: Event) -> bool:
-        """Whether the event led to another state."""
-        before = self.state
-        self._chart.send(event.name)
-        (self.state,) = (s.value for s in self._chart.configuration if isinstance(s.value, State))
-        self.heading_home = self._is_homeward()
-        return self.state is not before
-
-    def _is_homeward(self) -> bool:
-        active = {state.id for state in self._chart.configuration}
-        if "driving" in active:
-            return "heading_home" in active
-        last = self._chart.history_values.get("phase", ())
-        return any(state.id == "heading_home" for state in last)
+    @property
+    def heading_home(self) -> bool:
+        """Whether the rover heads home, or will when what interrupted that is over."""
+        if "driving" in self.active:
+            return "heading_home" in self.active
+        return "heading_home" in self.interrupted("phase")
 
 
-@dataclass(frozen=True)
-class Transition:
-    """One arrow of the chart, between states that the rover can be in."""
-
-    event: Event
-    source: State
-    target: State
-
-
-def transitions() -> set[Transition]:
+def transitions() -> set[Transition[State, Event]]:
     """All arrows, those of the groups and of the history taken apart."""
-    found = set()
-    for source in _leaves(MissionChart.states):
-        for group in (source, *source.ancestors()):
-            for transition in group.transitions:
-                for event in transition.events:
-                    for target in _entered(transition.target):
-                        found.add(Transition(Event[event.id], source.value, target.value))
-    return found
-
-
-def _leaves(states: Iterable[ChartState]) -> list[ChartState]:
-    return [leaf for state in states for leaf in (_leaves(state.states) or [state])]
-
-
-def _entered(state: ChartState) -> list[ChartState]:
-    """The states that a transition to this one may lead to."""
-    if state.is_history:
-        phases = state.parent.states if state.parent else []
-        return [leaf for phase in phases for leaf in _entered(phase)]
-    if not state.states:
-        return [state]
-    return [leaf for child in state.states if child.initial for leaf in _entered(child)]
+    return statechart.transitions(MissionChart, Event, State)

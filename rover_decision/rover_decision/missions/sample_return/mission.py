@@ -9,6 +9,7 @@ import math
 from dataclasses import replace
 from functools import partial
 
+from rover_common.types import SAFE_COMMAND
 from rover_decision.missions.sample_return.chart import Event, Machine, State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.drivers import Drivers
@@ -18,7 +19,7 @@ from rover_decision.missions.sample_return.tick import TickContext
 from rover_decision.types import Decision, Frame, Overlay, Progress, Request
 from rover_navigation.monitors import CIRCLE_SPEED
 from rover_navigation.plan_scheduler import MakeRequest, PlanStatus
-from rover_navigation.types import NO_POINTS, PlanRequest
+from rover_navigation.types import NO_POINTS, Plan, PlanRequest
 
 # Time goes into a rock in these, also where a recovery interrupts the approach again and again.
 APPROACHING = {State.ROCK_APPROACH, State.TILT, State.STUCK}
@@ -80,7 +81,7 @@ class SampleReturnMission:
         """From the next tick on; of the parameters, those count that may be set in a mission."""
         self._new_config = config
 
-    def tick(self, frame: Frame, plans: PlanStatus) -> Decision:
+    def tick(self, frame: Frame, plans: PlanStatus[Plan]) -> Decision:
         """Decide about one frame."""
         parts = self._parts
         self._apply_config(frame.time)
@@ -95,7 +96,12 @@ class SampleReturnMission:
         self._tick = tick
         return Decision(command, self.state, reason, self._progress(tick))
 
-    def plan_request(self, frame: Frame) -> MakeRequest:
+    def wait_for_run(self) -> Decision:
+        """Ask the bridge for a new run, and brake until it has begun."""
+        command = replace(SAFE_COMMAND, new_run=True)
+        return Decision(command, self.state, "waits for a new run")
+
+    def plan_request(self, frame: Frame) -> MakeRequest[PlanRequest]:
         """What a plan is to be made of, as things stand at this frame; the map comes later."""
         parts, time = self._parts, frame.time
         by_breadcrumbs = parts.home_paths.method.by_breadcrumbs
@@ -139,7 +145,7 @@ class SampleReturnMission:
     def _heads_home(self) -> bool:
         return self._machine.heading_home or self._return_requested
 
-    def _observe(self, frame: Frame, plans: PlanStatus) -> TickContext:
+    def _observe(self, frame: Frame, plans: PlanStatus[Plan]) -> TickContext:
         """Bring all that is remembered up to date."""
         parts = self._parts
         homeward = self.state in HOMEWARD

@@ -68,7 +68,9 @@ class Parts:
             coverage=CoverageGrid(ROVER_SCALE),
         )
 
-    def update(self, frame: Frame, plans: PlanStatus, homeward: bool) -> tuple[Health, Plan | None]:
+    def update(
+        self, frame: Frame, plans: PlanStatus[Plan], homeward: bool
+    ) -> tuple[Health, Plan | None]:
         """Once per frame: how the inputs are, and the plan in force, which is never a stale one.
 
         homeward: the trail and the goals no longer matter.
@@ -96,11 +98,11 @@ class Parts:
         """Of the frame's scan."""
         return LocalClearance.of(frame.scan, self.config.corridor)
 
-    def _health(self, frame: Frame, plans: PlanStatus) -> Health:
+    def _health(self, frame: Frame, plans: PlanStatus[Plan]) -> Health:
         begun = frame.stamp - round(self.elapsed * 1e9)
         planned = begun if plans.plan is None else plans.plan.stamp
         return Health(
-            pose=frame.pose,
+            tilt=max(abs(frame.pose.pitch), abs(frame.pose.roll)),
             gap=self.inputs.gap,
             jump=self.inputs.jump,
             stopped_moving=self.motion.stopped_moving(frame.time),

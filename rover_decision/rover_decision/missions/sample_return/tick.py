@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from rover_common.geometry import Pose
+from rover_decision.behavior import Behavior
 from rover_decision.missions.sample_return.chart import Event, State
 from rover_decision.missions.sample_return.samples import SeenRock
 from rover_decision.trouble import Health
@@ -43,25 +43,5 @@ class TickContext:
         return self.frame.speed
 
 
-class StateBehavior(ABC):
-    """What the rover does in one state, and what lasts from frame to frame there.
-
-    Only `enter` and `update` may change it: `event` and `act` are questions, with the same answers
-    when asked twice.
-    """
-
-    recoveries = 0  # manoeuvres begun in this state
-
-    def enter(self, tick: TickContext, before: State) -> None:  # noqa: B027
-        """The state begins at this frame."""
-
-    def update(self, tick: TickContext) -> None:  # noqa: B027
-        """A later frame has come in this state."""
-
-    @abstractmethod
-    def event(self, tick: TickContext) -> Event | None:
-        """What happened, None when all goes on as it is."""
-
-    @abstractmethod
-    def act(self, tick: TickContext) -> Action:
-        """The command for this frame, and why."""
+class StateBehavior(Behavior[TickContext, State, Event, Action]):
+    """What the rover does in one state."""
