@@ -16,8 +16,8 @@ from rover_tools.cli.options import json_option
 def command(picture: Path | None, as_json: bool) -> None:
     """Measure the embedded simulator: against recordings, and its speed.
 
-    Motion and images are compared with recordings of the original where there are some; speed and
-    memory are measured in any case.
+    Motion, tilt and images are compared with recordings of the original where there are some;
+    speed and memory are measured in any case.
 
     \b
     Examples:
