@@ -23,14 +23,18 @@ def model_of(maze: Maze, box: bool = False) -> mujoco.MjModel:
 def mjcf_of(maze: Maze, box: bool = False) -> str:
     model = Element("mujoco", model=maze.name)
     SubElement(model, "compiler", angle="radian")
-    SubElement(model, "option", timestep=str(STEP), integrator="implicitfast", cone="elliptic")
+    SubElement(
+        model, "option", timestep=str(STEP), integrator="implicitfast", cone="elliptic",
+        impratio="10",  # wheels that hold do not creep
+    )  # fmt: skip
     world = SubElement(model, "worldbody")
     SubElement(world, "geom", name="floor", type="plane", size="0 0 1")
     for index, wall in enumerate(maze.walls):
         _add_wall(world, f"wall_{index}", wall)
     if maze.ramp is not None:
         _add_ramp(world, maze.ramp)
-    add_robot(world, maze.start, maze.errors, box)
+    height = 0.0 if maze.ramp is None else maze.ramp.height_at(maze.start.x, maze.start.y)
+    add_robot(world, maze.start, height, maze.errors, box)
     add_motors(model)
     return tostring(model, encoding="unicode")
 

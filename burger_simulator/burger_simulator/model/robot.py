@@ -19,25 +19,27 @@ INERTIA = (0.010, 0.010, 0.012)  # [kg m^2] of a box of that mass, 0.25 m wide a
 CHASSIS_BOTTOM, CHASSIS_TOP = 0.035, 0.165  # [m] below the lidar's beam
 BOX = (0.135, 0.150)  # [m] half length and half width of the body with its launcher
 CASTER_RADIUS, CASTER_Z = 0.005, 0.006  # [m] 1 mm above the ground, so that the nose is up a little
+DROP = 0.01  # [m] to the ground below the axle: less than the caster is in it on a slope
 IMU_X, IMU_Z = -0.032, 0.078  # [m]
 
 RUBBER = "0.8 0.005 0.0001"  # friction of the wheels: sliding, torsional, rolling
 STEEL = "0.02 0.005 0.0001"  # of the ball, which rolls
 STALL_TORQUE = 1.4  # [N m] of the XL430-W250 motor at 11.1 V
-SERVO_GAIN = STALL_TORQUE / 5.97  # [N m s/rad] its no-load speed of 57 turns a minute
-# [s] Lag of the speed loop: a step from top speed to zero just does not lift the caster, that is
-# stays below g * 0.032 m / 0.080 m.
-SERVO_LAG = 0.06
+# The motor's speed loop holds the angle to which the speed adds up: it loses none on a slope, and
+# stands on it. Damped critically, and slow enough that a step from top speed to zero does not lift
+# the caster: its deceleration stays below g * 0.032 m / 0.080 m.
+DAMPING = STALL_TORQUE / 5.97  # [N m s/rad] its no-load speed of 57 turns a minute
+STIFFNESS = DAMPING / 0.06  # [N m/rad]
 # [kg m^2] of a rotor behind gears of 258.5 to 1, assumed. Without it the wheel is so light that the
 # solver, to which the servo's stiffness is not known, lets it slip.
 ARMATURE = 0.003
 GROUP = 1  # of the robot's geoms, so that rays can leave them out
 
 
-def add_robot(world: Element, start: Pose, errors: SensorErrors, box: bool) -> None:
-    """Below the world's body; `box`: a body with corners instead of the disc."""
+def add_robot(world: Element, start: Pose, ground: float, errors: SensorErrors, box: bool) -> None:
+    """Dropped on ground so high [m]; `box`: a body with corners instead of the disc."""
     base = SubElement(
-        world, "body", name="base", pos=f"{start.x} {start.y} 0.001", quat=wxyz(start)
+        world, "body", name="base", pos=f"{start.x} {start.y} {ground + DROP}", quat=wxyz(start)
     )
     SubElement(base, "freejoint", name="free")
     SubElement(
@@ -62,8 +64,8 @@ def add_motors(model: Element) -> None:
     actuators = SubElement(model, "actuator")
     for side in ("left", "right"):
         SubElement(
-            actuators, "general", name=side, joint=side, dyntype="filter", dynprm=str(SERVO_LAG),
-            gainprm=str(SERVO_GAIN), biastype="affine", biasprm=f"0 0 {-SERVO_GAIN}",
+            actuators, "general", name=side, joint=side, dyntype="integrator",
+            gainprm=str(STIFFNESS), biastype="affine", biasprm=f"0 {-STIFFNESS} {-DAMPING}",
             forcerange=f"{-STALL_TORQUE} {STALL_TORQUE}",
         )  # fmt: skip
     sensors = SubElement(model, "sensor")

@@ -48,7 +48,8 @@ class ThermalSensor:
         seen = self._seen()
         if self._celsius is None:
             self._celsius = seen
-        self._celsius += (1.0 - math.exp(-SAMPLE / TIME_CONSTANT)) * (seen - self._celsius)
+        # Of the discrete filters of first order, this one lags by the time constant.
+        self._celsius += SAMPLE / (SAMPLE + TIME_CONSTANT) * (seen - self._celsius)
 
     def frame(self) -> NDArray[np.float32]:
         """(8, 8) [C] as the device reads it, after at least one look."""

@@ -80,6 +80,14 @@ class Ramp:
         dx, dy = x - self.x, y - self.y
         return cos * dx + sin * dy, -sin * dx + cos * dy
 
+    def height_at(self, x: float, y: float) -> float:
+        """[m] above ground, 0 beside the ramp."""
+        along, across = self.along_and_across(x, y)
+        if abs(across) > self.width / 2:
+            return 0.0
+        from_end = min(along, self.length - along)
+        return self.height * min(1.0, max(0.0, from_end / self.slope_length))
+
 
 @dataclass(frozen=True)
 class SensorErrors:
