@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from made_fixes import cloud, fix
 
 from rover_heat.config import HeatConfig
 from rover_heat.thermal.fix import Fix
@@ -16,19 +16,6 @@ from rover_heat.thermal.sources import find_sources
 
 CONFIG = HeatConfig()
 KMEANS = replace(CONFIG, clustering="kmeans", clusters=3)
-
-
-def fix(x: float, y: float, normal: float = 0.0, sigma: float = 0.05, **other: float) -> Fix:
-    variance = sigma**2
-    return Fix(
-        0, 2, (3, 3), x, y, (variance, 0.0, 0.0, variance), normal,
-        other.get("range", 1.0), other.get("peak", 6.0),
-    )  # fmt: skip
-
-
-def cloud(x: float, y: float, count: int, normal: float = 0.0, seed: int = 0) -> list[Fix]:
-    rng = np.random.default_rng(seed)
-    return [fix(*(rng.normal((x, y), 0.04)), normal) for _ in range(count)]
 
 
 def places(fixes: list[Fix], config: HeatConfig = CONFIG) -> list[tuple[float, float]]:

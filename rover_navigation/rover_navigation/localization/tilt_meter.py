@@ -19,15 +19,18 @@ class TiltMeter:
 
     def __init__(self) -> None:
         self._samples: deque[tuple[int, float, float]] = deque(maxlen=SAMPLES)
-        self._level = (0.0, 0.0)  # [rad] roll, pitch
+        self.level = (0.0, 0.0)  # [rad] roll, pitch
 
-    def add(self, imu: Imu) -> None:
-        """One sample."""
-        if imu.orientation is not None and any(imu.orientation):
+    def add(self, imu: Imu) -> tuple[float, float] | None:
+        """Roll and pitch [rad] as measured by one sample; None for one that is not a number."""
+        if not all(map(math.isfinite, (*imu.angular_velocity, *imu.linear_acceleration))):
+            return None
+        if imu.orientation is not None and _is_rotation(imu.orientation):
             roll, pitch, _ = angles_from_quaternion(*imu.orientation)
         else:
             roll, pitch = self._filtered(imu)
         self._samples.append((imu.stamp, roll, pitch))
+        return roll, pitch
 
     def _filtered(self, imu: Imu) -> tuple[float, float]:
         """Complementary filter: the gyro's fast changes on the accelerometer's mean."""
@@ -45,12 +48,16 @@ class TiltMeter:
 
     def set_level(self, first: int, last: int) -> None:
         """From here on level is how the robot stood between two stamps [ns]."""
-        self._level = self._mean(first, last) or self._level
+        self.level = self._mean(first, last) or self.level
+
+    def lean(self, first: int, last: int) -> tuple[float, float]:
+        """Roll and pitch [rad] from level, means between two stamps [ns]; 0 where none tells."""
+        roll, pitch = self._mean(first, last) or self.level
+        return roll - self.level[0], pitch - self.level[1]
 
     def tilt(self, first: int, last: int) -> float:
         """[rad] from level, the mean between two stamps [ns]; 0 where no sample tells."""
-        roll, pitch = self._mean(first, last) or self._level
-        return math.hypot(roll - self._level[0], pitch - self._level[1])
+        return math.hypot(*self.lean(first, last))
 
     def _mean(self, first: int, last: int) -> tuple[float, float] | None:
         inside = [sample[1:] for sample in self._samples if first <= sample[0] <= last]
@@ -58,3 +65,8 @@ class TiltMeter:
             return None
         roll, pitch = np.mean(inside, axis=0)
         return float(roll), float(pitch)
+
+
+def _is_rotation(quaternion: tuple[float, float, float, float]) -> bool:
+    """Whether an orientation was measured: sensors without one send zeros."""
+    return abs(math.hypot(*quaternion) - 1.0) < 0.1
