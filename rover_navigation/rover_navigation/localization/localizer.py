@@ -34,7 +34,7 @@ INLIER = 0.1  # [m] from a wall of the map
 TRACKED, RELOCATED = 0.5, 0.75  # shares of inliers at which a pose is accepted
 BAD_SCANS = 5  # in a row, after which the pose is searched
 # Error of the odometry between two scans: [m], [m/m], [rad], [rad/rad]. Its heading is the gyro's.
-DRIFT, DRIFT_PER_DISTANCE, TURN_DRIFT, TURN_DRIFT_PER_TURN = 0.002, 0.05, 0.001, 0.01
+DRIFT, DRIFT_PER_DISTANCE, TURN_DRIFT, TURN_DRIFT_PER_TURN = 0.001, 0.03, 0.0005, 0.005
 SEARCHED = np.diag([0.05**2, 0.05**2, 0.05**2])  # covariance of a candidate
 
 
