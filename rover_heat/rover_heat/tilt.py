@@ -15,6 +15,7 @@ FIT_TILT, FIT_TURN = 0.05, 0.3  # [rad], [rad/s] within which a thermal frame is
 # arrival of a frame may be late by
 FIT_SPAN = 400_000_000
 REST = 2_000_000_000  # [ns] at rest that level is measured in
+MOMENT = 100_000_000  # [ns]
 KEPT = 2_000_000_000  # [ns] of turn rates
 
 
@@ -71,6 +72,12 @@ class TiltMonitor:
         self._bias = sum(rates) / len(rates) if rates else 0.0
         self.measured = True
         self.lean, self.share = Lean(), 0.0
+
+    @property
+    def turn_now(self) -> float:
+        """[rad/s] How fast it turns, to either side, in the mean of the last moment."""
+        rates = [rate - self._bias for at, rate in self._rates if at > self._newest - MOMENT]
+        return abs(sum(rates) / len(rates)) if rates else 0.0
 
     def turn_rate(self, stamp: int) -> float:
         """[rad/s] The fastest turn in the time before a stamp [ns] that a thermal frame shows."""

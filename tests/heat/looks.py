@@ -5,7 +5,7 @@ from __future__ import annotations
 from warm_room import Room, hits_of
 
 from rover_common.geometry import Pose
-from rover_heat.coverage import Coverage
+from rover_heat.thermal.coverage import Coverage
 from rover_heat.thermal.fix import View
 
 

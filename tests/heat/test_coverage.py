@@ -12,10 +12,10 @@ from warm_room import Room, box
 
 from rover_common.geometry import Pose
 from rover_heat.config import HeatConfig
-from rover_heat.coverage import Coverage
 from rover_heat.planning.faces import find_faces
 from rover_heat.planning.site import make_site
 from rover_heat.planning.types import HeatPlanRequest
+from rover_heat.thermal.coverage import Coverage
 
 CONFIG = HeatConfig()
 ROOM = Room(box(3.0, 2.0))

@@ -15,11 +15,11 @@ from warm_room import Room, box
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.types import GridMap
 from rover_heat.config import HeatConfig
-from rover_heat.coverage import Coverage
 from rover_heat.planning.planner import HeatPlanner
 from rover_heat.planning.types import GoalKind, HeatPlan, HeatPlanRequest
 from rover_heat.ramp.estimate import Ramp
 from rover_heat.ramp.hazards import NO_HAZARDS
+from rover_heat.thermal.coverage import Coverage
 
 CONFIG = HeatConfig()
 FAST = replace(CONFIG, fast_explore=True)

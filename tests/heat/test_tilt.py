@@ -48,7 +48,7 @@ class Tilted:
 def test_the_ramp_of_the_challenge_is_a_tilt_within_the_mean(rate, way):
     tilted = Tilted(rate=rate)
     assert tilted.feed(1.0, **way) <= 0.2
-    tilted.feed(0.3)
+    tilted.feed(0.4)
     assert tilted.monitor.share < 0.1
 
 

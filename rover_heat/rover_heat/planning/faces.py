@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_heat.coverage import Examined, sectors_around
 from rover_heat.planning.site import Site
+from rover_heat.thermal.coverage import Examined, sectors_around
 
 Points = NDArray[np.float64]
 CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))

@@ -44,6 +44,7 @@ def _goal(site: Site, middle: tuple[float, float]) -> HeatGoal | None:
     near = near[site.in_sight(site.nodes[near], ends)]
     if len(near) == 0:
         return None
+    near = site.with_room(near)
     # Of places as soon reached, the nearer to the border shows more of what is behind it.
     node = int(near[np.argmin(site.seconds[near] + away[near] / BURGER_SCALE.travel_speed_max)])
     x, y = site.nodes[node]

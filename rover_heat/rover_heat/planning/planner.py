@@ -12,13 +12,11 @@ from rover_heat.planning.ground_goals import ground_goals
 from rover_heat.planning.site import Site, make_site
 from rover_heat.planning.stand_off import approach, stand_offs
 from rover_heat.planning.types import HeatGoal, HeatPlan, HeatPlanRequest
-from rover_heat.planning.view_goals import LOOK_SECONDS, Sights, find_sights, view_goals
+from rover_heat.planning.view_goals import Sights, find_sights, view_goals
 from rover_heat.thermal.sources import find_sources
 from rover_navigation.frontiers import in_discs
 
-# [faces] that a frontier is worth, beside a view that examines so many: a wall of a cell's length
-FRONTIER_WORTH = 12.0
-START_REACH = 0.3  # [m] from the start
+START_REACH, GOAL_REACH = 0.3, 0.2  # [m] to the nearest drivable cell
 
 
 class HeatPlanner:
@@ -38,15 +36,16 @@ class HeatPlanner:
         faces = find_faces(site, request.examined)
         sights = find_sights(site, faces)
         views = self._views(request, site, faces, sights)
-        goals = sorted([*frontiers, *views], key=lambda goal: -_worth(goal))
+        goals = sorted([*frontiers, *views], key=lambda goal: -goal.worth)
         if request.seek_ramp:
             goals = ground_goals(site, request.trail)
         failed = _failed(goals, request.failed)
-        start = request.start or request.pose
+        start, goal = request.start or request.pose, request.goal or request.pose
         return HeatPlan(
             stamp=request.stamp,
             goals=tuple(g for g, bad in zip(goals, failed, strict=True) if not bad),
             waiting=tuple(g for g, bad in zip(goals, failed, strict=True) if bad),
+            goal_seconds=site.seconds_to(goal.x, goal.y, GOAL_REACH),
             sources=sources,
             stand_offs=tuple(stand_offs(site, source, config) for source in sources),
             approaches=tuple(approach(site, ramp) for ramp in request.ramps),
@@ -63,12 +62,6 @@ class HeatPlanner:
         if self._config.fast_explore:
             return []
         return view_goals(site, faces, sights, request.pose, request.sensors, self._config)
-
-
-def _worth(goal: HeatGoal) -> float:
-    """[1/s] What it shows per second."""
-    faces = len(goal.faces) or FRONTIER_WORTH
-    return faces / (goal.seconds + LOOK_SECONDS)
 
 
 def _failed(goals: list[HeatGoal], discs: NDArray[np.float64]) -> list[bool]:

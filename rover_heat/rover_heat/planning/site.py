@@ -21,6 +21,8 @@ from rover_navigation.types import NO_POINTS
 
 Points = NDArray[np.float64]
 SAMPLE = 0.04  # [m] along a line of sight: less than a cell
+# [m] from obstacles, of places to drive to: more than on the way there, for the robot turns at them
+ROOM = 0.20
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,12 @@ class Site:
     def nodes(self) -> Points:
         """(nodes, 2) [m]"""
         return np.stack([self.roadmap.x, self.roadmap.y], axis=1)
+
+    def with_room(self, nodes: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Those of some nodes where there is room to turn; all of them where there is nowhere."""
+        row, col = self.geometry.cell_of(*self.nodes[nodes].T)
+        wide = nodes[self.costmap.clearance[row, col] >= ROOM]
+        return wide if len(wide) else nodes
 
     def seconds_to(self, x: float, y: float, reach: float) -> float:
         """[s] to the node nearest to a place, inf when none is within reach [m]."""

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.types import GridMap
-from rover_heat.coverage import NOTHING, Examined
 from rover_heat.ramp.estimate import Ramp
 from rover_heat.ramp.hazards import NO_HAZARDS, Hazards
+from rover_heat.thermal.coverage import NOTHING, Examined
 from rover_heat.thermal.fix import Fix
 from rover_heat.thermal.sources import Group
 from rover_navigation.types import NO_POINTS
@@ -27,6 +27,11 @@ class GoalKind(Enum):
     GROUND = "ground where the ramp may be"
 
 
+# [faces] that a frontier is worth, beside a view that examines so many: a wall of a cell's length
+FRONTIER_WORTH = 12.0
+LOOK_SECONDS = 1.5  # [s] to brake, to turn and to look
+
+
 @dataclass(frozen=True)
 class HeatGoal:
     """A pose to drive to, and what for."""
@@ -37,6 +42,16 @@ class HeatGoal:
     y: float  # [m]
     seconds: float  # [s] to get there
     faces: Points = field(default_factory=lambda: NO_POINTS)  # (n, 2) [m] that a view examines
+
+    @property
+    def worth(self) -> float:
+        """[1/s] What it shows per second."""
+        return worth_of(len(self.faces), self.seconds)
+
+
+def worth_of(faces: int, seconds: float) -> float:
+    """[1/s] Of a goal that examines so many faces, 0 for a frontier, and takes so long [s]."""
+    return (faces or FRONTIER_WORTH) / (seconds + LOOK_SECONDS)
 
 
 @dataclass(frozen=True)
@@ -63,6 +78,7 @@ class HeatPlanRequest:
     failed: Points = field(default_factory=lambda: NO_DISCS)  # (n, 3) goals not to choose now
     sensors: tuple[int, ...] = (1, 2)  # thermal ones that are alive
     start: Pose | None = None  # where the mission began
+    goal: Pose | None = None  # that is driven to
     seek_ramp: bool = False  # whether goals are to find the ramp
 
 
@@ -74,6 +90,7 @@ class HeatPlan:
     placed: bool = True  # whether the robot stands on known ground: else the plan says nothing
     goals: tuple[HeatGoal, ...] = ()  # the best first
     waiting: tuple[HeatGoal, ...] = ()  # those that have failed of late
+    goal_seconds: float = float("inf")  # [s] to the goal that is driven to
     sources: tuple[Group, ...] = ()
     stand_offs: tuple[tuple[StandOff, ...], ...] = ()  # of each source, the best first
     approaches: tuple[StandOff, ...] = ()  # of each ramp; inf seconds where out of reach

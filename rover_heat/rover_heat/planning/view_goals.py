@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, wrap_angle
 from rover_heat.config import HeatConfig, thermal_yaw
-from rover_heat.coverage import FIELD, OBLIQUE, REACH
 from rover_heat.planning.faces import Faces
 from rover_heat.planning.site import Site
-from rover_heat.planning.types import GoalKind, HeatGoal
+from rover_heat.planning.types import LOOK_SECONDS, GoalKind, HeatGoal
+from rover_heat.thermal.coverage import FIELD, OBLIQUE, REACH
 from rover_navigation.burger_scale import BURGER_SCALE
 
 Points = NDArray[np.float64]
@@ -22,7 +22,6 @@ SPACING = 0.15  # [m] between places that are tried
 MARGIN_RANGE, MARGIN_ANGLE = 0.1, math.radians(5.0)  # [m], [rad]
 BINS = 72  # directions of view
 LEAST = 3  # [cells] of face that are worth a view: a patch of heat is wider
-LOOK_SECONDS = 1.5  # [s] to brake, to turn and to look
 MOST = 8  # goals that are handed out
 APART = 0.3  # [m] between the places of two of them
 
@@ -132,7 +131,7 @@ def _in_fields(bearing: NDArray[np.float64], yaw: float, axes: list[float]) -> N
 
 def _places(site: Site) -> NDArray[np.intp]:
     """Nodes some way apart that can be reached, the soonest reached of each square."""
-    nodes = np.flatnonzero(np.isfinite(site.seconds))
+    nodes = site.with_room(np.flatnonzero(np.isfinite(site.seconds)))
     nodes = nodes[np.argsort(site.seconds[nodes], kind="stable")]
     squares = np.floor(site.nodes[nodes] / SPACING).astype(int)
     _, first = np.unique(squares, axis=0, return_index=True)

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.sensor_types import LaserScan, Twist
 from rover_heat.config import HeatConfig
+from rover_heat.scan_window import ranges_around
 from rover_heat.tilt import Lean
 
 TURN_MAX = 0.6  # [rad/s]
@@ -83,7 +83,7 @@ class Climb:
         self._level_since = (self._level_since or seen.time) if level else None
         self._risen |= self._rise >= RISE_LEAST
         if not self._risen:
-            if self._way > SLIP_PATH or self._stalls(seen) or _nearest_ahead(seen) < AHEAD_LEAST:
+            if self._way > SLIP_PATH or self._stalls(seen) or self._blocked(seen):
                 self.progress = Progress.FAILED
         elif self._ends(seen):
             self.progress = Progress.ON_TOP
@@ -92,9 +92,16 @@ class Climb:
 
     def _ends(self, seen: ClimbInput) -> bool:
         if self._config.ramp_end == "wall":
-            return float(np.median(_ranges(seen, 0.0, SIDE_WINDOW))) < self._config.stop_front
+            return (
+                float(np.median(ranges_around(seen.scan, 0.0, SIDE_WINDOW)))
+                < self._config.stop_front
+            )
         since = self._level_since
         return since is not None and seen.time - since >= LEVEL_SECONDS
+
+    @staticmethod
+    def _blocked(seen: ClimbInput) -> bool:
+        return float(ranges_around(seen.scan, 0.0, AHEAD_WINDOW).min()) < AHEAD_LEAST
 
     def _stalls(self, seen: ClimbInput) -> bool:
         moving = abs(seen.speed) > WHEELS_STAND
@@ -107,7 +114,9 @@ class Climb:
         config = self._config
         heading = wrap_angle(self._yaw - seen.pose.yaw)
         left, right = (
-            float(np.median(_ranges(seen, self._yaw + side - seen.pose.yaw, SIDE_WINDOW)))
+            float(
+                np.median(ranges_around(seen.scan, self._yaw + side - seen.pose.yaw, SIDE_WINDOW))
+            )
             for side in (math.pi / 2, -math.pi / 2)
         )
         sides = left - right if max(left, right) < SIDE_REACH else None
@@ -122,19 +131,6 @@ class Climb:
         return max(-TURN_MAX, min(TURN_MAX, turn))
 
 
-def _nearest_ahead(seen: ClimbInput) -> float:
+def _range_at(seen: ClimbInput, bearing: float) -> float:
     """[m]"""
-    return float(_ranges(seen, 0.0, AHEAD_WINDOW).min())
-
-
-def _ranges(seen: ClimbInput, bearing: float, window: float) -> NDArray[np.float64]:
-    """(n,) [m] Within a window [rad] around a bearing [rad]; inf when nothing came back."""
-    nothing = np.array([math.inf])
-    scan = seen.scan
-    if scan is None:
-        return nothing
-    ranges = np.asarray(scan.ranges, float)
-    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges)) - bearing
-    aside = np.abs((angles + math.pi) % (2.0 * math.pi) - math.pi)
-    met = ranges[np.isfinite(ranges) & (ranges >= scan.range_min) & (aside <= window)]
-    return met if len(met) else nothing
+    return float(np.median(ranges_around(seen.scan, bearing, SIDE_WINDOW)))

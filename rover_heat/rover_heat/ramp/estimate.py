@@ -36,7 +36,8 @@ class Ramp:
     x: float  # [m] middle of the foot line
     y: float  # [m]
     yaw: float  # [rad] of the rise
-    straight: bool  # met on both wheels: the direction is that of the rise
+    straight: bool = True  # met on both wheels: the direction is that of the rise
+    between: bool = True  # walls: it lies in a lane
 
     def before_foot(self, distance: float) -> Pose:
         """The pose in line with it, a distance [m] before the foot, facing it."""
@@ -59,9 +60,9 @@ def estimate_ramp(pose: Pose, lean: Lean, hits: Points) -> Ramp:
     x, y = pose.x + rear * math.cos(pose.yaw), pose.y + rear * math.sin(pose.yaw)
     aside = _middle_between_walls(x, y, yaw, hits)
     straight = abs(lean.pitch) > STRAIGHT_ON * abs(lean.roll)
-    return Ramp(
-        x - FIRED_BEYOND * cos - aside * sin, y - FIRED_BEYOND * sin + aside * cos, yaw, straight
-    )
+    x -= FIRED_BEYOND * cos + (aside or 0.0) * sin
+    y -= FIRED_BEYOND * sin - (aside or 0.0) * cos
+    return Ramp(x, y, yaw, straight, between=aside is not None)
 
 
 def _along_walls(yaw: float, hits: Points) -> float:
@@ -82,8 +83,8 @@ def _along_walls(yaw: float, hits: Points) -> float:
     return wrap_angle(wall + quarter * round((yaw - wall) / quarter))
 
 
-def _middle_between_walls(x: float, y: float, yaw: float, hits: Points) -> float:
-    """[m] to the left of a place, of the middle between the walls beside it; 0 without both."""
+def _middle_between_walls(x: float, y: float, yaw: float, hits: Points) -> float | None:
+    """[m] to the left of a place, of the middle between the walls beside it; None without both."""
     offsets = hits - (x, y)
     ranges = np.hypot(*offsets.T)
     bearings = np.arctan2(offsets[:, 1], offsets[:, 0]) - yaw
@@ -92,7 +93,7 @@ def _middle_between_walls(x: float, y: float, yaw: float, hits: Points) -> float
         aside = np.abs(np.angle(np.exp(1j * (bearings - side * math.pi / 2))))
         beside = (aside < SIDE_WINDOW) & (ranges < SIDE_REACH)
         if not beside.any():
-            return 0.0
+            return None
         sides.append(float(np.median(ranges[beside])))
     left, right = sides
-    return (left - right) / 2 if left + right <= BESIDE else 0.0
+    return (left - right) / 2 if left + right <= BESIDE else None

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rover_common.burger import BurgerModel
 from rover_common.geometry import Pose, compose, distance_between, inverse, wrap_angle
 from rover_common.sensor_types import LaserScan, SensorBatch, WheelOdometry
+from rover_navigation.localization.dead_reckoning import DeadReckoning
 from rover_navigation.localization.distance_field import DistanceField
 from rover_navigation.localization.log_odds_map import LogOddsMap
 from rover_navigation.localization.pose_buffer import PoseBuffer
@@ -18,28 +19,29 @@ from rover_navigation.localization.relocation import (
     best_candidate,
     near_candidates,
 )
-from rover_navigation.localization.scan_matching import match
+from rover_navigation.localization.scan_matching import Match, match
 from rover_navigation.localization.scan_points import ScanPoints, deskew, last_ray
 from rover_navigation.localization.tilt_meter import TiltMeter
 
 STANDING = 1_000_000_000  # [ns] a map that begins in a turn stays turned by up to 6 degrees
 STILL_DISTANCE, STILL_TURN = 0.01, 0.01  # [m], [rad] of odometry while standing
 TILT_LIMIT = math.radians(2.5)  # beyond, the scan shows the floor or misses walls
-KEYFRAME_DISTANCE, KEYFRAME_TURN = 0.05, 0.15  # [m], [rad] between scans that the map takes
-JUMP = 0.3  # [m] between two messages of odometry: not driven
+# [m] between scans that the map takes, of all that it took: a lidar that sees all around shows
+# nothing new where it was before, and a map that is drawn again and again follows the pose's error.
+KEYFRAME_DISTANCE = 0.1
+CHANGED = 0.9  # share of inliers below which the world has changed: it takes them anywhere
 INLIER = 0.1  # [m] from a wall of the map
 TRACKED, RELOCATED = 0.5, 0.75  # shares of inliers at which a pose is accepted
 BAD_SCANS = 5  # in a row, after which the pose is searched
-# Error of the odometry between two scans: [m], [m/m], [rad], [rad/rad]. Wheels slip at times.
-DRIFT, DRIFT_PER_DISTANCE, TURN_DRIFT, TURN_DRIFT_PER_TURN = 0.01, 0.1, 0.005, 0.05
+# Error of the odometry between two scans: [m], [m/m], [rad], [rad/rad]. Its heading is the gyro's.
+DRIFT, DRIFT_PER_DISTANCE, TURN_DRIFT, TURN_DRIFT_PER_TURN = 0.001, 0.03, 0.0005, 0.005
 SEARCHED = np.diag([0.05**2, 0.05**2, 0.05**2])  # covariance of a candidate
 
 
 class Localizer:
     """The pose in a map that it makes itself. The map frame is where the robot stood at first.
 
-    Odometry is kept in a frame of its own that begins where the robot stood as well, and goes on
-    where the robot was when the odometry jumps: `_origin` is the odom frame in it.
+    The buffer's odom frame is that of the dead reckoning, which is not the odometry's own.
     """
 
     def __init__(self, model: BurgerModel, resolution: float) -> None:
@@ -51,23 +53,25 @@ class Localizer:
         self.relocations = 0  # times that a pose was found by search
         self._model = model
         self._tilt = TiltMeter()
-        self.newest_odometry: WheelOdometry | None = None
-        self._origin: Pose | None = None
+        self._reckoning = DeadReckoning(self.buffer.odometry)
         self._waiting: LaserScan | None = None
         self._points = ScanPoints(0, np.empty((0, 2)), np.empty((0, 2)))  # of the last scan
         self._rest: tuple[int, Pose] | None = None  # since when and where it stands
         self._field: DistanceField | None = None
-        self._keyframe = Pose(0.0, 0.0, 0.0)
+        self._keyframes = np.zeros((1, 2))  # (n, 2) [m] where the map took scans
         self._matched = Pose(0.0, 0.0, 0.0)  # odometry of the last scan that was matched
         self._bad_scans = 0
 
     @property
     def map_to_odom(self) -> Pose | None:
         """The odom frame in the map."""
-        correction = self.buffer.correction.newest
-        if correction is None or self._origin is None:
-            return None
-        return compose(correction[1], self._origin)
+        pose = self.buffer.latest()
+        return None if pose is None else self._reckoning.odom_in(pose)
+
+    @property
+    def newest_odometry(self) -> WheelOdometry | None:
+        """The last message."""
+        return self._reckoning.newest
 
     def free_side(self) -> int:
         """+1 where the last scan shows more free ground to the left, else -1."""
@@ -79,8 +83,10 @@ class Localizer:
         """Take a batch. A scan waits until the odometry covers its last ray, or for a newer one."""
         for imu in batch.imus:
             self._tilt.add(imu)
+        jumps = self._reckoning.jumps
         for odometry in batch.odometry:
-            self._add_odometry(odometry)
+            self._reckoning.add(odometry)
+        self.is_lost |= self.is_ready and self._reckoning.jumps > jumps
         waiting = () if self._waiting is None else (self._waiting,)
         for scan in (*waiting, *batch.scans):
             self._waiting = scan
@@ -88,16 +94,6 @@ class Localizer:
             if newest is not None and newest[0] >= last_ray(scan):
                 self._waiting = None
                 self._add_scan(scan)
-
-    def _add_odometry(self, odometry: WheelOdometry) -> None:
-        last, self.newest_odometry = self.newest_odometry, odometry
-        if last is None or self._origin is None:
-            self._origin = inverse(odometry.pose)
-        elif distance_between(last.pose, odometry.pose) > JUMP:
-            before = compose(self._origin, last.pose)
-            self._origin = compose(before, inverse(odometry.pose))
-            self.is_lost = self.is_ready
-        self.buffer.odometry.add(odometry.stamp, compose(self._origin, odometry.pose))
 
     def _add_scan(self, scan: LaserScan) -> None:
         self._points = points = deskew(scan, self.buffer.odometry, self._model.lidar_x)
@@ -115,7 +111,9 @@ class Localizer:
             self.map = LogOddsMap(self.map.geometry.resolution)
             self.buffer.correction.add(points.stamp, inverse(odometry))
         self.map.integrate(*points.placed(Pose(0.0, 0.0, 0.0)))
-        if points.stamp - rest[0] >= STANDING and self.map.walls.any():
+        standing = points.stamp - rest[0]
+        if standing >= STANDING and self.map.walls.any():
+            self._reckoning.stood(wrap_angle(odometry.yaw - rest[1].yaw), standing / 1e9)
             self._tilt.set_level(rest[0], points.stamp)
             self._renew_field()
             self._matched = odometry
@@ -127,13 +125,13 @@ class Localizer:
         correction = self.buffer.correction.at(points.stamp)
         predicted = compose(correction, odometry)
         prior = self.covariance + _drift(self._matched, odometry)
-        found = None if self.is_lost else match(points.ends, self._field, predicted, prior)
-        if found is None or self._agreement(points, found.pose) < TRACKED:
+        if not self.is_lost:
+            found = match(points.ends, self._field, predicted, prior)
+            if self._accept(points, odometry, found, TRACKED):
+                return
             self._bad_scans += 1
-            if self.is_lost or self._bad_scans >= BAD_SCANS:
-                self._search(points, odometry, predicted)
-            return
-        self._accept(points, odometry, found.pose, found.covariance)
+        if self.is_lost or self._bad_scans >= BAD_SCANS:
+            self._search(points, odometry, predicted)
 
     def _search(self, points: ScanPoints, odometry: Pose, expected: Pose) -> None:
         """Try poses nearby, then all."""
@@ -146,22 +144,26 @@ class Localizer:
         ):
             start = best_candidate(points.ends, self._field, expected, places, yaws)
             found = match(points.ends, self._field, start, SEARCHED)
-            if self._agreement(points, found.pose) >= RELOCATED:
+            if self._accept(points, odometry, found, RELOCATED):
                 self.is_lost = False
                 self.relocations += 1
-                self._accept(points, odometry, found.pose, found.covariance)
                 return
 
-    def _accept(
-        self, points: ScanPoints, odometry: Pose, pose: Pose, covariance: NDArray[np.float64]
-    ) -> None:
+    def _accept(self, points: ScanPoints, odometry: Pose, found: Match, least: float) -> bool:
+        """Take the pose if at least such a share of the points are inliers there."""
+        agreement = self._agreement(points, found.pose)
+        if agreement < least:
+            return False
         self._bad_scans = 0
-        self._matched, self.covariance = odometry, covariance
-        self.buffer.correction.add(points.stamp, compose(pose, inverse(odometry)))
-        if _moved(self._keyframe, pose, KEYFRAME_DISTANCE, KEYFRAME_TURN):
-            self._keyframe = pose
-            self.map.integrate(*points.placed(pose))
+        self._matched, self.covariance = odometry, found.covariance
+        self.buffer.correction.add(points.stamp, compose(found.pose, inverse(odometry)))
+        here = np.array([[found.pose.x, found.pose.y]])
+        elsewhere = np.hypot(*(self._keyframes - here).T).min() >= KEYFRAME_DISTANCE
+        if elsewhere or agreement < CHANGED:
+            self._keyframes = np.concatenate([self._keyframes, here])
+            self.map.integrate(*points.placed(found.pose))
             self._renew_field()
+        return True
 
     def _renew_field(self) -> None:
         self._field = DistanceField.of(self.map.geometry, self.map.walls)

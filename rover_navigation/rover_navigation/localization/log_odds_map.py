@@ -14,6 +14,7 @@ from rover_common.types import GridMap
 # lidar's walls are thinner than a cell and a ray may pass beside them in the same cell.
 HIT, PASS = 0.9, -0.4
 LEAST, MOST = -2.0, 3.5  # so that a cell can change its mind within a few scans
+BEHIND = 2  # [cells] behind a wall that are cleared with it
 GROWTH = 20  # [cells] at once
 SAMPLES = 1.5  # per cell along a ray
 
@@ -36,6 +37,7 @@ class LogOddsMap:
         passed = np.zeros_like(hit)
         passed[self._cells_along(ends, origins)] = True
         passed |= _closed(passed) & ~self._known
+        passed |= self._just_behind(ends, origins) & self.walls
         passed &= ~hit
         self._log_odds[hit] += HIT
         self._log_odds[passed] += PASS
@@ -54,6 +56,21 @@ class LogOddsMap:
         share = (away[step] / lengths[ray])[:, None]
         points = origins[ray] + share * rays[ray]
         return self.geometry.cell_of(points[:, 0], points[:, 1])
+
+    def _just_behind(
+        self, ends: NDArray[np.float64], origins: NDArray[np.float64]
+    ) -> NDArray[np.bool_]:
+        """(rows, cols) cells behind the ends. The walls are thin: what was hit there was this wall,
+        from farther off, where the lidar's error is larger than a cell. No ray would clear it from
+        this side, and scans that are matched to thick walls creep forward."""
+        rays = ends - origins
+        step = self.geometry.resolution * rays / np.hypot(rays[:, 0], rays[:, 1])[:, None]
+        points = ends + np.arange(1, BEHIND + 1)[:, None, None] * step
+        row, col = self.geometry.cell_of(points[:, :, 0], points[:, :, 1])
+        inside = self.geometry.contains(row, col)
+        behind = np.zeros(self._known.shape, bool)
+        behind[row[inside], col[inside]] = True
+        return behind
 
     def _grow_to(self, points: NDArray[np.float64]) -> None:
         """Make all points [m] lie inside."""

@@ -18,7 +18,9 @@ from rover_navigation.localization.scan_points import transformed
 POINT_SIGMA = 0.03  # [m] of a point from the middle of its wall's cells
 # Neighbouring rays share the error of the cells that they hit, so that they count for fewer.
 INDEPENDENT_SHARE = 0.2
-KERNEL = 0.08  # [m] beyond which a point counts less and less (Cauchy)
+# [m] beyond which a point counts less and less, and soon not at all (Geman and McClure): what comes
+# into sight for the first time lies at no wall of the map, and would draw the scan to the nearest.
+KERNEL = 0.08
 ITERATIONS = 12
 CONVERGED = 2e-4  # [m], [rad]
 
@@ -47,7 +49,7 @@ def match(
         arm = placed - state[:2]  # its derivative by the yaw is arm turned by 90 degrees
         turn = slope[:, 1] * arm[:, 0] - slope[:, 0] * arm[:, 1]
         jacobian = np.column_stack([slope, turn])
-        weight = INDEPENDENT_SHARE / (POINT_SIGMA**2 * (1.0 + (distance / KERNEL) ** 2))
+        weight = INDEPENDENT_SHARE / (POINT_SIGMA * (1.0 + (distance / KERNEL) ** 2)) ** 2
         weighted = jacobian.T * weight
         information = prior + weighted @ jacobian
         step = np.linalg.solve(information, prior @ (start - state) - weighted @ distance)

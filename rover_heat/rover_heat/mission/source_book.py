@@ -1,0 +1,148 @@
+"""The sources of this run: known by number, served or not, and what speaks against them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rover_common.geometry import wrap_angle
+from rover_heat.config import HeatConfig, thermal_yaw
+from rover_heat.planning.types import HeatPlan, StandOff
+from rover_heat.thermal.detection import WarmPatch
+from rover_heat.thermal.fix import View
+from rover_heat.thermal.sources import SAME_SIDE, Group
+from rover_heat.types import HeatSource
+
+MOST_TRIES = 3  # poses before a source that are tried in vain, until it is left to the end
+SURE_OBSERVATIONS, SURE_RANGE = 10, 1.2  # fixes, and [m] of the nearest, of a sure source
+# A source that is not warm from near is none.
+COLD_RANGE, COLD_OBLIQUE = 1.0, math.radians(40.0)  # [m], off its normal
+COLD_FIELD = math.radians(18.0)  # off a sensor's axis
+COLD_ON_WALL = 0.12  # [m] from the source to what the lidar met there
+COLD_LEAST = 8  # such frames
+
+
+@dataclass
+class _Entry:
+    source: HeatSource
+    stands: tuple[StandOff, ...] = ()
+    nearest: float = math.inf  # [m] of its fixes
+    tries: int = 0  # poses in vain
+    rounds: int = 0  # times that it was left to the end
+    cold: int = 0  # frames that should have shown it
+    missing: bool = False  # in the newest plan
+
+
+@dataclass
+class SourceBook:
+    config: HeatConfig
+    _entries: dict[int, _Entry] = field(default_factory=dict)
+    _next: int = 1
+
+    def update(self, plan: HeatPlan) -> None:
+        """A new plan: its groups are old sources, seen better, or new ones."""
+        for entry in self._entries.values():
+            entry.missing = True
+        for number, group in enumerate(plan.sources):
+            entry = self._entry_of(group)
+            entry.source = replace(
+                entry.source, x=group.x, y=group.y, covariance=group.covariance,
+                normal=group.normal, observations=group.observations, peak=group.peak,
+            )  # fmt: skip
+            entry.missing, entry.nearest = False, group.nearest
+            if plan.placed:
+                entry.stands = plan.stand_offs[number]
+        gone = [n for n, e in self._entries.items() if e.missing and not e.source.delivered]
+        for number in gone:
+            del self._entries[number]
+
+    def note_views(self, views: Iterable[tuple[View, WarmPatch | None]]) -> list[HeatSource]:
+        """Frames of one tick; the sources that they refute, which are dropped."""
+        refuted = []
+        for view, patch in views:
+            for entry in self._entries.values():
+                if not entry.source.delivered and self._is_cold(view, patch, entry.source):
+                    entry.cold += 1
+        for number, entry in list(self._entries.items()):
+            if entry.cold >= COLD_LEAST and entry.cold > entry.source.observations:
+                refuted.append(self._entries.pop(number).source)
+        return refuted
+
+    @property
+    def sources(self) -> tuple[HeatSource, ...]:
+        return tuple(entry.source for entry in self._entries.values())
+
+    @property
+    def delivered(self) -> int:
+        return sum(entry.source.delivered for entry in self._entries.values())
+
+    def next(self, only_sure: bool = False) -> HeatSource | None:
+        """The one to serve next: the soonest reached of those tried least."""
+        open_ = [
+            entry
+            for entry in self._entries.values()
+            if not entry.source.delivered and entry.stands and entry.rounds < 2
+            and (not only_sure or self._is_sure(entry))
+        ]  # fmt: skip
+        best = min(open_, key=lambda e: (e.rounds, e.stands[0].seconds), default=None)
+        return None if best is None else best.source
+
+    def stand_off(self, number: int) -> StandOff | None:
+        """Where to stand before a source now: another pose after each that was in vain."""
+        entry = self._entries.get(number)
+        if entry is None or not entry.stands:
+            return None
+        return entry.stands[entry.tries % len(entry.stands)]
+
+    def get(self, number: int) -> HeatSource | None:
+        entry = self._entries.get(number)
+        return None if entry is None else entry.source
+
+    def failed(self, number: int) -> None:
+        """A pose before a source was in vain."""
+        entry = self._entries.get(number)
+        if entry is not None:
+            entry.tries += 1
+            if entry.tries % MOST_TRIES == 0:
+                entry.rounds += 1
+
+    def mark_delivered(self, number: int) -> None:
+        entry = self._entries[number]
+        entry.source = replace(entry.source, delivered=True)
+
+    def _entry_of(self, group: Group) -> _Entry:
+        for entry in self._entries.values():
+            source = entry.source
+            near = math.dist((source.x, source.y), (group.x, group.y)) < self.config.group_distance
+            turned = abs(wrap_angle(source.normal - group.normal))
+            if near and turned < SAME_SIDE and entry.missing:
+                return entry
+        number, self._next = self._next, self._next + 1
+        source = HeatSource(
+            number, group.x, group.y, group.covariance, group.normal, group.observations, group.peak
+        )
+        self._entries[number] = entry = _Entry(source)
+        return entry
+
+    @staticmethod
+    def _is_sure(entry: _Entry) -> bool:
+        seen = entry.source.observations >= SURE_OBSERVATIONS
+        return seen and entry.nearest <= SURE_RANGE and entry.cold * 2 < entry.source.observations
+
+    def _is_cold(self, view: View, patch: WarmPatch | None, source: HeatSource) -> bool:
+        """Whether a frame ought to show a source, and does not."""
+        if patch is not None:
+            return False
+        dx, dy = source.x - view.pose.x, source.y - view.pose.y
+        distance, direction = math.hypot(dx, dy), math.atan2(dy, dx)
+        axis = view.pose.yaw + thermal_yaw(self.config, view.sensor)
+        oblique = abs(wrap_angle(direction + math.pi - source.normal))
+        if distance > COLD_RANGE or oblique > COLD_OBLIQUE:
+            return False
+        if abs(wrap_angle(direction - axis)) > COLD_FIELD:
+            return False
+        to_hits = np.hypot(*(view.hits - (source.x, source.y)).T)
+        return bool((to_hits < COLD_ON_WALL).any())

@@ -1,0 +1,53 @@
+"""LAUNCHING: stands before a source, turns to it, releases the payload when all is still."""
+
+from __future__ import annotations
+
+from rover_heat.mission.chart import Event, State
+from rover_heat.mission.launch import Launch
+from rover_heat.mission.parts import HeatParts
+from rover_heat.mission.states.driving import Driving
+from rover_heat.mission.states.goal_navigation import GoalNavigation
+from rover_heat.mission.tick import HeatAction, HeatTick
+from rover_heat.types import HeatSource
+
+INTERRUPTIONS = (State.HOLD, State.PAUSED, State.FAILED, State.TILT_INTERRUPT)
+
+
+class Launching(Driving):
+    def __init__(self, parts: HeatParts, approach: GoalNavigation) -> None:
+        super().__init__(parts)
+        self._approach = approach
+        self._launch = Launch(parts)
+
+    def enter(self, tick: HeatTick, before: State) -> None:
+        if before not in INTERRUPTIONS or not self._launch.signalled:
+            self._launch = Launch(self._parts)
+        self._launch.begin(tick.time, self._source())
+
+    def update(self, tick: HeatTick) -> None:
+        self._launch.update(tick, self._source())
+        if self._launch.signalled_now:
+            number = self._approach.target
+            assert number is not None
+            self._parts.sources.mark_delivered(number)
+            self._parts.agenda.payloads -= 1
+            self._parts.notices.append(f"launch: payload for source {number}")
+
+    def event(self, tick: HeatTick) -> Event | None:
+        """A sequence that runs is not interrupted: the robot stands in any case."""
+        if self._launch.done:
+            return self._parts.agenda.next_event()
+        return None if self._launch.signalled else super().event(tick)
+
+    def _own_event(self, tick: HeatTick) -> Event | None:
+        if not self._launch.missed:
+            return None
+        return Event.deliver if self._source() is not None else self._parts.agenda.next_event()
+
+    def act(self, tick: HeatTick) -> HeatAction:
+        launch = self._launch
+        return HeatAction(launch.reason, launch.twist, launch.signalled_now)
+
+    def _source(self) -> HeatSource | None:
+        number = self._approach.target
+        return None if number is None else self._parts.sources.get(number)
