@@ -86,6 +86,7 @@ def _add(log: LogBuilder, loop: Loop, decision: Decision) -> None:
         progress.samples_collected,
         progress.home_distance,
         progress.distance,
+        progress.explored,
     )
     log.add(moment, loop.perception.world_map)
 
