@@ -26,13 +26,14 @@ def format_telemetry(
     samples: Samples,
     image: bytes,
     sim_time: float | None = None,
+    shows_insets: bool = False,
     separator: str = ";",
     decimal: str = ".",
 ) -> dict[str, str]:
     """The object of one telemetry event.
 
     Takes SI and REP-103: [m/s], [rad], samples as (x, y) [m], and a JPEG file. `decimal` is the
-    mark of the machine's locale; `sim_time` [s] is this project's only addition.
+    mark of the machine's locale; `sim_time` [s] and `shows_insets` are this project's additions.
     """
 
     def number(value: float, digits: int = 4) -> str:
@@ -57,6 +58,8 @@ def format_telemetry(
     if sim_time is not None:
         # Not the original's key, so without groups of thousands: a plain number for any reader.
         telemetry["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
+    if shows_insets:
+        telemetry["shows_insets"] = "1"
     return telemetry
 
 
