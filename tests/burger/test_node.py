@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -25,6 +26,8 @@ from tf2_msgs.msg import TFMessage
 from burger_simulator.config import BurgerConfig
 from burger_simulator.node import BurgerNode
 from burger_simulator.options import BurgerOptions
+from burger_simulator.simulation import BurgerSimulation
+from burger_simulator.truth_file import TruthFile
 from burger_simulator.world.generator import generate_maze
 from burger_simulator.world.maze import MazeError
 from rover_common import topics
@@ -114,6 +117,7 @@ def test_it_drives_as_cmd_vel_says_and_stops_when_that_is_silent(ros, watcher, s
     assert ros.spin_until(drive)
     assert ros.spin_until(lambda: abs(node.simulation.truth.speed) < 0.01)
     assert node.simulation.truth.distance > 0.01
+    assert node.simulation.truth.contacts == 0
 
 
 def test_a_velocity_that_is_no_number_stands(ros, watcher):
@@ -133,8 +137,9 @@ def test_a_signal_begins_a_sequence_and_its_end_is_reported(ros, watcher):
     assert ros.spin_until(
         lambda: flywheel.get_subscription_count() and node._launched.get_subscription_count()
     )
-    for data in (0, 50):
-        flywheel.publish(Int32(data=data))
+    flywheel.publish(Int32(data=0))
+    assert not ros.spin_until(lambda: node._launch, timeout=0.3)
+    flywheel.publish(Int32(data=50))
     assert ros.spin_until(lambda: node._launch)
     node._pause(False, Trigger.Response())
     assert ros.spin_until(lambda: reports)
@@ -190,6 +195,16 @@ def test_the_truth_goes_to_a_file(ros, tmp_path):
     lines = [json.loads(line) for line in path.read_text().splitlines()[:20]]
     assert [line["time"] for line in lines] == pytest.approx([1.05 + 0.05 * n for n in range(20)])
     assert set(lines[0]) == {row.strip("` ") for cell in column("Truth") for row in cell.split(",")}
+
+
+def test_a_second_of_the_truth_is_on_the_disk_when_it_is_over(tmp_path):
+    file = TruthFile(tmp_path / "truth.jsonl")
+    truth = BurgerSimulation(generate_maze(1, "demo")).truth
+    for time in (1.5, 1.6, 2.5):
+        file.write(replace(truth, time=time))
+    lines = (tmp_path / "truth.jsonl").read_text().splitlines()
+    assert [json.loads(line)["time"] for line in lines] == [1.5, 1.6, 2.5]
+    file.close()
 
 
 def column(heading: str) -> list[str]:

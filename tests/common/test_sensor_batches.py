@@ -133,6 +133,9 @@ def test_a_launch_that_is_counted_is_waited_for():
     assert collector.take_complete() is None
     collector.add_launch()
     assert collector.take_complete() == SensorBatch(50, launches_done=1)
+    collector.add_tick(Tick(51))
+    assert collector.take_complete() == SensorBatch(51)
+    assert collector.take_complete() is None
 
 
 def test_without_ticks_a_batch_is_what_came():
