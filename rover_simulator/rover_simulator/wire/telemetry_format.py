@@ -39,7 +39,7 @@ def format_telemetry(
     def number(value: float, digits: int = 4) -> str:
         return _marked(_fixed(value, digits), decimal)
 
-    telemetry = {
+    return {
         "steering_angle": number(math.degrees(steering_angle)),
         "throttle": number(throttle),
         "brake": number(brake),
@@ -54,13 +54,18 @@ def format_telemetry(
         "samples_x": separator.join(number(x, 2) for x, _ in samples),
         "samples_y": separator.join(number(y, 2) for _, y in samples),
         "image": base64.b64encode(image).decode("ascii"),
+        **_additions(sim_time, shows_insets, decimal),
     }
+
+
+def _additions(sim_time: float | None, shows_insets: bool, decimal: str) -> dict[str, str]:
+    """What the original does not send; without groups of thousands: plain for any reader."""
+    additions = {}
     if sim_time is not None:
-        # Not the original's key, so without groups of thousands: a plain number for any reader.
-        telemetry["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
+        additions["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
     if shows_insets:
-        telemetry["shows_insets"] = "1"
-    return telemetry
+        additions["shows_insets"] = "1"
+    return additions
 
 
 def _marked(text: str, decimal: str) -> str:
