@@ -80,7 +80,7 @@ class EmbeddedNavigator:
 
     def set_hazards(self, hazards: GridMap) -> None:
         """The map with blocked places in it, which paths keep off; replaces the one before."""
-        self._hazards.set(hazards, self._localizer.map.grid())
+        self._hazards.set(hazards, self._localizer.map.cells.grid())
         self._run.replan()
 
     def pose_at(self, stamp: int) -> Pose | None:
@@ -148,10 +148,10 @@ class EmbeddedNavigator:
         return compose(pose, moved)
 
     def _ground(self, body: Pose) -> Ground:
-        return Ground(self._localizer.map.grid(), self._hazards, body, self._scale)
+        return Ground(self._localizer.map.cells.grid(), self._hazards, body, self._scale)
 
     def _map_when_due(self, stamp: int) -> GridMap | None:
         if not self._localizer.is_ready or stamp < self._next_map:
             return None
         self._next_map = stamp + round(self._config.map_period * 1e9)
-        return self._localizer.map.grid()
+        return self._localizer.map.cells.grid()
