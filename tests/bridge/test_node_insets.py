@@ -11,21 +11,15 @@ import cv2
 import numpy as np
 import pytest
 from nav_msgs.msg import OccupancyGrid
-from node_endpoints import endpoints, listed
 from rclpy.node import Node
-from rclpy.parameter import Parameter
-from readme_tables import ROOT
 from rover_interfaces.msg import RockTrackArray
 from sensor_msgs.msg import Image
 from telemetry import telemetry
-from wire_clients import Decider, Unity, run_clients
+from wire_clients import WAIT, Decider, Unity, run_clients
 
-from rover_bridge import node as bridge_node
 from rover_bridge import node_insets
 from rover_bridge.node import BridgeNode
-from rover_bridge.node_insets import InsetNode
 from rover_common import frames, topics
-from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
 from rover_common.types import FIRST_RUN, GridMap, RockTrack
 
@@ -153,6 +147,21 @@ def test_a_pair_is_sent_once(ros, bridge):
     assert not any_inset(second)
 
 
+def test_a_client_that_is_not_active_gets_none(ros, bridge):
+    node = bridge(inset_period=60.0)
+
+    def body(unity: Unity) -> tuple[dict[str, Any], dict[str, Any]]:
+        unity.ask(telemetry())
+        node._insets._finished.append(node_insets.Insets("bWFw", "YmlyZA=="))
+        with Unity(node.port) as other:
+            refused = dict(other.ask(telemetry()).data)
+        return refused, dict(unity.ask(telemetry()).data)
+
+    refused, answer = with_client(ros, node.port, body)
+    assert not any_inset(refused)
+    assert both(answer)
+
+
 @pytest.fixture
 def blocked(monkeypatch) -> Iterator[threading.Event]:
     """A drawing that has begun, and does not end before the test does."""
@@ -160,7 +169,7 @@ def blocked(monkeypatch) -> Iterator[threading.Event]:
 
     def draw(*_: Any) -> np.ndarray:
         begun.set()
-        go_on.wait()
+        go_on.wait(WAIT)
         return GREY
 
     monkeypatch.setattr(node_insets, "map_inset", draw)
@@ -201,38 +210,3 @@ def test_a_picture_that_cannot_be_used_ends_no_drawing(ros, bridge, monkeypatch)
     monkeypatch.setattr(node_insets, "image_of", image_of)
     node = bridge()
     assert with_client(ros, node.port, lambda unity: ask_until(unity, both)) is not None
-
-
-def test_the_topics_are_those_of_the_readme(ros, bridge):
-    node = InsetNode(bridge())
-    try:
-        found = endpoints(node.subscriptions)
-    finally:
-        node.destroy_node()
-    assert found == listed(ROOT / "rover_bridge" / "README.md", "Subscribes for the insets")
-
-
-def test_the_node_has_the_bridges_namespace_and_topics(ros):
-    arguments = ["--ros-args", "-r", "__ns:=/one", "-r", "__node:=two", "-r", "worldmap:=three"]
-    bridge = ros.add(lambda **kwargs: BridgeNode(cli_args=arguments, **kwargs), port=0)
-    node = InsetNode(bridge)
-    try:
-        assert node.get_fully_qualified_name() == "/one/two_insets"
-        assert {s.topic_name for s in node.subscriptions} >= {"/one/three", "/one/rocks"}
-    finally:
-        node.destroy_node()
-
-
-def test_a_wrong_truth_is_one_clear_line(ros, monkeypatch):
-    with pytest.raises(RoverError, match=r"nothing\.png: No such file or directory"):
-        ros.add(BridgeNode, port=0, truth="nothing.png")
-
-    def run_node(*_: Any, **__: Any) -> None:
-        BridgeNode(
-            context=ros.context,
-            parameter_overrides=[Parameter("truth", value=str(ROOT / "README.md"))],
-        )
-
-    monkeypatch.setattr(bridge_node, "run_node", run_node)
-    with pytest.raises(SystemExit, match=r"^bridge_node: .*README.md: not an image$"):
-        bridge_node.main()
