@@ -1,10 +1,8 @@
-"""Run one mission of the scoreboard, on the machine that this is called on."""
+"""Run one of the rover's missions, on the machine that this is called on."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass
 
 import cv2
 
@@ -26,18 +24,9 @@ from rover_tools.evaluation.strategy import Strategy
 from rover_tools.report.mission_log import LogBuilder, Moment, track_csv
 from rover_tools.report.mission_page import mission_map, mission_page
 from rover_tools.scoreboard.job import Job
+from rover_tools.scoreboard.missions import CompletedMission, Files
 
 ROW_KEYS = (*RESULT_KEYS, "oracle_time")
-
-Files = Mapping[str, bytes]  # contents by suffix
-
-
-@dataclass(frozen=True)
-class CompletedMission:
-    """A mission that ended, with what it leaves to look at."""
-
-    result: Result
-    files: Files  # its map as .svg, its track as .csv, its report as .html
 
 
 def run_job(job: Job) -> CompletedMission:

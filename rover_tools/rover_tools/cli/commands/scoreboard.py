@@ -71,6 +71,7 @@ def command(
     """
     from rover_tools.evaluation.strategy import Strategy
     from rover_tools.scoreboard.job import Ground, make_jobs
+    from rover_tools.scoreboard.rover_board import BOARD
     from rover_tools.scoreboard.run import Engine, run_scoreboard
 
     if worlds is None:
@@ -80,4 +81,4 @@ def command(
     ground = None if map_file is None else Ground.load(map_file)
     jobs = make_jobs(worlds, ground, seeds, strategies, size=size, fps=fps, time_limit=time_limit)
     folder = result_folder("scoreboard", out)
-    run_scoreboard(jobs, folder, Engine(scheduler, workers), as_json)
+    run_scoreboard(jobs, BOARD, folder, Engine(scheduler, workers), as_json)
