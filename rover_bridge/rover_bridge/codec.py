@@ -32,6 +32,8 @@ from rover_common.vehicle import ROVER
 POSITION_LIMIT = 1000.0  # [m]; the world is 200 m wide
 SPEED_LIMIT = 100.0  # [m/s]; the rover reaches 5
 ANGLE_LIMIT_DEG = 720.0
+# The simulator takes any throttle; published programs for it back out of a stop with 2 and 3.
+THROTTLE_LIMIT = 3.0
 COUNT_LIMIT = 1000  # samples; the world has 6
 TIME_LIMIT = 1e9  # [s]
 
@@ -110,7 +112,7 @@ def encode_drive(
     steering_deg = math.degrees(max(-ROVER.max_steering, min(ROVER.max_steering, steering)))
     drive = {
         "steering_angle": f"{steering_deg:.4f}",
-        "throttle": f"{max(-1.0, min(1.0, throttle)):.4f}",
+        "throttle": f"{max(-THROTTLE_LIMIT, min(THROTTLE_LIMIT, throttle)):.4f}",
         "brake": f"{max(0.0, brake):.4f}",
     }
     if decimal_comma:  # the simulator parses in its machine's culture

@@ -67,9 +67,9 @@ def test_defaults_are_a_few_generated_canyons(jobs_of):
 def test_worlds_and_map_with_each_strategy(tmp_path, world, jobs_of):
     world.save(tmp_path)
     options = ["--map", str(tmp_path / "map.png"), "--seeds", "8,9", "--fps", "12.5"]
-    strategies = ["--strategies", "tour,wall_follow_a+bearing,tour+breadcrumbs"]
+    strategies = ["--strategies", "tour,classic_a+bearing,tour+breadcrumbs"]
     assert [job.name for job in jobs_of(*options, *strategies)] == [
-        "map-8-tour", "map-8-wall_follow_a+bearing", "map-9-tour", "map-9-wall_follow_a+bearing",
+        "map-8-tour", "map-8-classic_a+bearing", "map-9-tour", "map-9-classic_a+bearing",
     ]  # fmt: skip
     assert [job.name for job in jobs_of(*options, "--worlds", "1")] == [
         "generated-1-tour", "map-8-tour", "map-9-tour",

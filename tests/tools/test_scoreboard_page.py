@@ -110,7 +110,7 @@ async def _widths(tmp_path) -> dict[int, tuple]:
 def test_page_and_maps_fit_a_desktop_and_a_phone(tmp_path):
     store = store_in(tmp_path)
     files = FILES | {".svg": mission_map(mission_log()).encode()}
-    for strategy in ("tour", "wall_follow_a+breadcrumbs"):
+    for strategy in ("tour", "classic_a+bearing"):
         for seed in (1, 2):
             job = job_of(strategy, seed)
             store.add(job, row_of(job), files)

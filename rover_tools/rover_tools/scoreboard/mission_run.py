@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 
 from rover_decision.types import Decision
 from rover_simulator.run import frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
-from rover_simulator.world.world import World
+from rover_simulator.world.world import MAP_NAME, World
 from rover_tools.evaluation.closed_loop import Loop, LoopResult
 from rover_tools.evaluation.mission_result import (
     RESULT_KEYS,
@@ -35,7 +37,7 @@ def run_job(job: Job) -> CompletedMission:
     start = time.monotonic()
     world = job.world()
     simulation = Simulation(world, job.seed, frame_steps_of(job.fps))
-    loop = Loop(simulation, Strategy.parse(job.strategy).config())
+    loop = _loop(simulation, world, Strategy.parse(job.strategy))
     log = LogBuilder(truth_of(world))
     try:
         end = loop.run(START_TIME + job.time_limit, lambda decision: _add(log, loop, decision))
@@ -61,6 +63,13 @@ def failed_row(job: Job, error: BaseException) -> Result:
     """The row of a mission that raised."""
     why = f"{type(error).__name__}: {error}"
     return failed_result(job.world_name, job.strategy, job.seed, why) | {"oracle_time": None}
+
+
+def _loop(simulation: Simulation, world: World, strategy: Strategy) -> Loop:
+    with TemporaryDirectory() as folder:  # the truth is a parameter of decision: a file
+        world.save(Path(folder))
+        config = strategy.config(Path(folder) / MAP_NAME)
+        return Loop(simulation, config, strategy.perception())
 
 
 def _add(log: LogBuilder, loop: Loop, decision: Decision) -> None:
