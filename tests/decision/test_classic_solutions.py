@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 from classic_frames import AWAY, ClassicMission, driving, ground, nav, rock_at
 from frames_by_hand import PLAN, exploring
-from maps import MIDDLE, straight_plan
+from maps import MIDDLE, request, straight_plan
 
 from rover_common.geometry import Pose
+from rover_common.ground_truth import TruthError
+from rover_common.types import GridMap
+from rover_decision.missions.sample_return import make_planner
 from rover_decision.missions.sample_return.chart import Event, State, transitions
 from rover_decision.missions.sample_return.classic.backtrack import FRAMES, BreadcrumbTrail
 from rover_decision.missions.sample_return.classic.chart_a import ClassicAChart
@@ -65,9 +69,12 @@ class TestBreadcrumbs:
         assert made.next == (0, 0)
 
     def test_loops_are_cut_out(self):
-        made = trail((0, 0), (5, 0), (10, 0), (10, 5), (5, 0), (0, 5))
+        made = trail((0, 0), (5, 0), (10, 0), (10, 5), (5, 2), (0, 5))
         made.follow(Pose(0.0, 5.0, 0.0))
         assert made.next == (5, 0)
+        apart = trail((0, 0), (5, 0), (10, 0), (10, 5), (5, 3))
+        apart.follow(Pose(5.0, 3.0, 0.0))
+        assert apart.next == (10, 5)
 
 
 class TestCompletion:
@@ -101,6 +108,19 @@ class TestCompletion:
         mission = exploring(DecisionConfig(complete_at=1.0))
         assert mission.tick(pose=far).state is State.FORWARD
         assert exploring(replace(config)).tick(pose=far).state is State.RETURN_HOME
+
+    def test_a_truth_takes_the_place_of_the_maps_own_borders(self, tmp_path):
+        truth = np.zeros((200, 200), np.uint8)
+        truth[15:25, 10:30] = 255  # of these 20 m the hall has 10
+        cv2.imwrite(str(tmp_path / "map.png"), truth)
+        cells = np.full((800, 800), -1, np.int8)
+        cells[60:100, 40:80] = 0
+        asked = request(GridMap(0.25, 0.0, 0.0, cells))
+        config = DecisionConfig(truth=str(tmp_path / "map.png"))
+        assert make_planner(config).plan(asked).explored == 0.5
+        assert make_planner(DecisionConfig()).plan(asked).explored != 0.5
+        with pytest.raises(TruthError):
+            make_planner(DecisionConfig(truth=str(tmp_path / "none.png")))
 
     @pytest.mark.parametrize("explorer", CLASSICS)
     def test_the_time_limit_leads_home(self, explorer):
@@ -169,8 +189,8 @@ class TestSwitching:
     )
     def test_it_goes_on_in_the_phase_at_hand(self, requests, state):
         mission = driving("classic_a")
-        for request in requests:
-            mission.request(request)
+        for asked in requests:
+            mission.request(asked)
         mission.tick()
         mission.mission.configure(DecisionConfig(explorer="classic_b"))
         assert mission.tick().state is state

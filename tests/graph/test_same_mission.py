@@ -29,9 +29,12 @@ from rover_simulator.wire.unity_client import OPEN, UnityClient
 from rover_simulator.world.generator import generate_world
 from rover_simulator.world.world import World
 from rover_tools.evaluation.closed_loop import Loop
+from rover_tools.evaluation.strategy import Strategy
 
 FRAME_STEPS = 5  # 10 frames a second
 FRAMES = 265  # up to a pickup
+CLASSIC_FRAMES = 120  # up to being stuck, as it stands before the sample
+TOUR = Strategy()
 Answer = tuple[str, Mapping[str, Any]]
 
 
@@ -54,14 +57,16 @@ def without_pictures(answer: Answer) -> Answer:
     return name, {key: value for key, value in data.items() if not key.startswith("inset")}
 
 
-def run_in_process(world: World) -> tuple[list[Answer], list[Pose]]:
+def run_in_process(
+    world: World, strategy: Strategy, frames: int
+) -> tuple[list[Answer], list[Pose]]:
     simulation = Simulation(world, 0, FRAME_STEPS)
-    loop = Loop(simulation)
+    loop = Loop(simulation, strategy.config(), strategy.perception())
     answers: list[Answer] = []
     poses: list[Pose] = []
     first = [loop.decide(), loop.decide()]  # as the simulator sends them when it connects
     try:
-        for frame in range(FRAMES):
+        for frame in range(frames):
             decisions = first if frame == 0 else [loop.decide()]
             for decision in decisions:
                 answers.append(answer_of(decision.command))
@@ -76,10 +81,13 @@ def run_in_process(world: World) -> tuple[list[Answer], list[Pose]]:
 class Graph:
     """The three nodes in lockstep, and a simulator at their socket."""
 
-    def __init__(self, ros: Any) -> None:
+    def __init__(self, ros: Any, strategy: Strategy = TOUR) -> None:
         self._ros = ros
         self._bridge = ros.add(BridgeNode, port=0, answer_deadline=10.0)
-        nodes = (self._bridge, ros.add(PerceptionNode), ros.add(DecisionNode, use_sim_time=True))
+        parameters = strategy.parameters()
+        perception = ros.add(PerceptionNode, **parameters["perception_node"])
+        decision = ros.add(DecisionNode, use_sim_time=True, **parameters["decision_node"])
+        nodes = (self._bridge, perception, decision)
         assert ros.spin_until(
             lambda: all(peer() for node in nodes for peer in node._diagnostics._peers.values())
         )
@@ -138,15 +146,23 @@ def drive_scene(
                 waiting = 1
 
 
-def test_graph_and_loop_run_the_same_mission(ros, world):
-    answers, poses = run_in_process(world)
-    ((graph_answers, graph_poses),) = Graph(ros).run(FRAMES, world=world)
-    assert len(graph_poses) == FRAMES
+@pytest.mark.parametrize(
+    ("strategy", "frames", "last"),
+    [
+        (TOUR, FRAMES, Command(pickup=True)),
+        (Strategy.parse("classic_b"), CLASSIC_FRAMES, Command(throttle=-1.0)),
+    ],
+    ids=["tour", "classic_b"],
+)
+def test_graph_and_loop_run_the_same_mission(ros, world, strategy, frames, last):
+    answers, poses = run_in_process(world, strategy, frames)
+    ((graph_answers, graph_poses),) = Graph(ros, strategy).run(frames, world=world)
+    assert len(graph_poses) == frames
     pairs = zip(map(without_pictures, answers), map(without_pictures, graph_answers), strict=True)
     differing = [(index, *pair) for index, pair in enumerate(pairs) if pair[0] != pair[1]]
     assert differing[:3] == []
     assert graph_poses == poses
-    assert ("pickup", {}) in answers
+    assert without_pictures(answer_of(last)) in map(without_pictures, answers)
 
 
 RUN_OF = {  # topics that tell the run, and where

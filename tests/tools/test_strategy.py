@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_perception.config import PerceptionConfig
 from rover_tools.cli.main import main, rover
 from rover_tools.cli.mission_options import MissionOptions
 from rover_tools.evaluation.strategy import ParametersError, Strategy, StrategyError, choices
@@ -24,6 +25,27 @@ def test_a_name_and_back():
     assert str(Strategy.parse("tour+breadcrumbs")) == "tour"
 
 
+@pytest.mark.parametrize(
+    ("name", "way_home", "share"),
+    [("classic_a", "breadcrumbs", 0.98), ("classic_b", "bearing", 0.0)],
+)
+def test_a_classic_comes_with_its_perception_and_its_way_home(name, way_home, share):
+    strategy = Strategy.parse(name)
+    assert strategy.way_home == way_home
+    assert str(strategy) == name
+    config, perception = strategy.config(), strategy.perception()
+    assert (config.nav_cell, config.complete_at, config.complete_rule) == (0.1, share, "any")
+    assert perception.recipe == "baseline"
+    assert Strategy().perception() == PerceptionConfig()
+
+
+def test_the_truth_is_for_those_that_know_it(tmp_path):
+    truth = tmp_path / "map.png"
+    assert Strategy.parse("classic_a").config(truth).truth == str(truth)
+    assert Strategy.parse("classic_b").config(truth).truth == ""
+    assert Strategy().config(truth).truth == ""
+
+
 @pytest.mark.parametrize("text", ["", "dance", "tour+", "tour+dance", "+bearing"])
 def test_a_name_that_there_is_not(text):
     with pytest.raises(StrategyError, match="there are"):
@@ -39,6 +61,10 @@ def test_of_other_parameters(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text("/**/decision_node:\n  ros__parameters:\n    explorer: frontier\n")
     assert str(Strategy.of_parameters(path)) == "frontier"
+    path.write_text("/**/decision_node:\n  ros__parameters:\n    explorer: classic_b\n")
+    of_file = Strategy.of_parameters(path)  # it says by itself what else is set
+    assert of_file.perception() == PerceptionConfig()
+    assert of_file.config().nav_cell == DecisionConfig().nav_cell
     path.write_text("[not, parameters]")
     with pytest.raises(ParametersError, match=r"mine\.yaml"):
         Strategy.of_parameters(path)
