@@ -53,7 +53,7 @@ class EmbeddedNavigator:
         self._hazards = Hazards()
         self._run = GoalRun(model, scale, config, np.random.default_rng(seed))
         self._goal: EmbeddedGoal | None = None
-        self._stamp = 0
+        self._relocations = 0  # that the goal's run has taken notice of
         self._last_scan = self._last_odometry = 0  # [ns]
         self._next_map = 0  # [ns]
         self._given: tuple[GridMap, ...] = ()  # the last maps that were given out
@@ -104,7 +104,6 @@ class EmbeddedNavigator:
 
     def step(self, batch: SensorBatch) -> NavigatorOutput:
         """Take what the sensors said, and drive on."""
-        self._stamp = batch.stamp
         self._note_inputs(batch)
         self._localizer.update(batch)
         pose = self._pose_now(batch)
@@ -145,7 +144,10 @@ class EmbeddedNavigator:
                 return f"no {name} for {timeout:g} s"
         if not self._localizer.is_ready:
             return "standing still for the first map"
-        return "searching the pose" if self._localizer.is_lost else ""
+        if self._localizer.is_lost:
+            return "searching the pose"
+        before, self._relocations = self._relocations, self._localizer.relocations
+        return "found the pose again" if self._relocations > before else ""
 
     def _note_inputs(self, batch: SensorBatch) -> None:
         if batch.scans:

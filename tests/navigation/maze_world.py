@@ -60,7 +60,8 @@ def cell_center(row: int, col: int) -> tuple[float, float]:
 class MazeWorld:
     """`step(twist)` moves the robot for one batch and gives what its sensors say.
 
-    `pose` is the truth, `contacts` the ticks at which the body's disc touched a wall.
+    `pose` is the truth, `odometry` what the wheels say, `contacts` the ticks at which the
+    body's disc touched a wall.
     """
 
     def __init__(self, walls: np.ndarray, start: Pose, seed: int, odometry_at: Pose) -> None:
@@ -72,7 +73,7 @@ class MazeWorld:
         self.scans_on = True
         self.odometry_on = True
         self._generator = np.random.default_rng(seed)
-        self._odometry = odometry_at
+        self.odometry = odometry_at
         self._twist = self._told = Twist()
         self._ticks = 0
         self._rays: list[np.ndarray] = []
@@ -94,7 +95,7 @@ class MazeWorld:
 
     def shift_odometry(self, pose: Pose) -> None:
         """Begin the odometry anew."""
-        self._odometry = pose
+        self.odometry = pose
 
     def step(self, twist: Twist) -> SensorBatch:
         """Drive for one batch."""
@@ -114,7 +115,7 @@ class MazeWorld:
             if scan is not None and self.scans_on:
                 scans.append(scan)
         if self.odometry_on:
-            odometry.append(WheelOdometry(self.stamp, self._odometry, self._twist))
+            odometry.append(WheelOdometry(self.stamp, self.odometry, self._twist))
         return SensorBatch(self.stamp, tuple(scans), tuple(imus), tuple(odometry))
 
     def _move(self) -> None:
@@ -132,7 +133,7 @@ class MazeWorld:
             moved = Pose(0.0, 0.0, moved.yaw)  # the wheels turn on
         self.clearance = min(self.clearance, distance)
         self.pose = compose(self.pose, moved)
-        self._odometry = compose(self._odometry, wrong)
+        self.odometry = compose(self.odometry, wrong)
 
     def _turn_lidar(self) -> LaserScan | None:
         """The rays of this tick; the whole turn at its end."""

@@ -10,8 +10,9 @@ import pytest
 from maze_world import MazeWorld, box, cell_center, maze
 
 from rover_common.burger import BURGER
-from rover_common.geometry import Pose, distance_between, wrap_angle
+from rover_common.geometry import Pose, compose, distance_between, wrap_angle
 from rover_common.sensor_types import Twist
+from rover_common.types import GridMap
 from rover_navigation.burger_scale import BURGER_SCALE
 from rover_navigation.embedded_goal import EmbeddedGoal
 from rover_navigation.embedded_navigator import EmbeddedNavigator, NavigatorOutput
@@ -127,6 +128,65 @@ def test_it_stops_in_a_gap_of_its_input_and_goes_on(hall, switch, name):
         if goal.status.final:
             break
     assert goal.status is GoalStatus.REACHED
+
+
+def test_it_stops_where_its_pose_jumps_and_goes_on(hall):
+    goal = hall.navigator.go_to(hall.world.in_map(Pose(2.4, 0.5, 0.0)), 0.1)
+    hall.wait(2.0)
+    hall.world.shift_odometry(Pose(7.0, 7.0, 2.0))
+    outputs = list(hall.steps(0.3))
+    stopped = [output for output in outputs if output.why == "found the pose again"]
+    assert [output.twist for output in stopped] == [Twist()]
+    assert outputs[-1].relocations == 1
+    for _ in hall.steps(30.0):
+        if goal.status.final:
+            break
+    assert goal.status is GoalStatus.REACHED
+
+
+def test_it_keeps_off_blocked_places_that_the_mission_names(hall):
+    output = next(output for output in hall.steps(2.0) if output.map is not None)
+    assert output.map is not None
+    grid = output.map
+    y, x = np.indices(grid.cells.shape) * grid.resolution
+    x, y = x + grid.origin_x, y + grid.origin_y
+    cells = np.where((np.abs(x - 0.8) < 0.15) & (y < 0.45), np.int8(100), grid.cells)
+    hall.navigator.set_hazards(GridMap(grid.resolution, grid.origin_x, grid.origin_y, cells))
+    goal = hall.navigator.go_to(Pose(1.6, 0.2, 0.0), 0.1)
+    for output in hall.steps(40.0):
+        assert output.pose is not None
+        assert not (abs(output.pose.x - 0.8) < 0.2 and output.pose.y < 0.5)
+        if goal.status.final:
+            break
+    assert goal.status is GoalStatus.REACHED
+
+
+def test_the_poses_of_the_last_seconds_can_be_asked_for(hall):
+    hall.navigator.go_to(hall.world.in_map(Pose(2.4, 0.5, 0.0)), 0.1)
+    true = {}
+    for output in hall.steps(3.0):
+        true[output.stamp] = hall.world.in_map(hall.world.pose)
+    for stamp, pose in true.items():
+        asked = hall.navigator.pose_at(stamp)
+        assert asked is not None
+        assert distance_between(asked, pose) < 0.03
+    assert hall.navigator.pose_at(max(true) + 1_000_000_000) is None
+
+
+def test_a_map_is_given_out_once_a_second(hall):
+    stamps = [output.stamp for output in hall.steps(4.0) if output.map is not None]
+    assert len(stamps) == 4
+    assert set(np.diff(stamps)) == {1_000_000_000}
+
+
+def test_the_transform_from_map_to_odom_carries_the_odometry_onto_the_pose(hall):
+    hall.navigator.go_to(hall.world.in_map(Pose(2.4, 1.5, 0.0)), 0.1)
+    for output in hall.steps(4.0):
+        assert output.map_to_odom is not None
+        assert output.pose is not None
+        carried = compose(output.map_to_odom, hall.world.odometry)
+        assert (carried.x, carried.y) == pytest.approx((output.pose.x, output.pose.y), abs=1e-6)
+    assert np.linalg.eigvalsh(output.covariance).min() > 0.0
 
 
 def test_the_same_seed_drives_the_same_way_bit_for_bit():
