@@ -17,4 +17,7 @@ setup(
     description="A maze with heat sources, and the TurtleBot3 Burger in it, in MuJoCo.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": ["burger_node = burger_simulator.node:main"],
+    },
 )

@@ -35,6 +35,7 @@ def moment_at(time: float, **changes) -> Moment:
         "samples": int(time > 30.0),
         "home_distance": 80.0 - time if back else time,
         "distance": time,
+        "explored": time / 100.0,
     }
     return Moment(**values | changes)
 

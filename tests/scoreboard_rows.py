@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from rover_tools.evaluation.mission_result import failed_result
 from rover_tools.scoreboard.job import Job
 from rover_tools.scoreboard.mission_run import failed_row
-from rover_tools.scoreboard.store import Entry
+from rover_tools.scoreboard.rover_board import BOARD
+from rover_tools.scoreboard.store import Entry, Store
 
 FILES = {".svg": b"<svg/>", ".csv": b"time\n", ".html": b"<!doctype html>"}
 
@@ -32,3 +35,7 @@ def entry_of(job: Job, **changes) -> Entry:
 
 def failed_entry(job: Job) -> Entry:
     return Entry(job.name, job.settings(), True, failed_row(job, RuntimeError("no way")))
+
+
+def store_in(folder: Path) -> Store:
+    return Store(folder, BOARD.shared)

@@ -96,21 +96,13 @@ class TruthKeeper:
             touching=self._walls.touching,
             ramp_contacts=self._ramp_body.count,
             beyond_foot=_beyond_foot(self._ramp, pose),
-            on_flat=_on_flat(self._ramp, pose),
+            on_flat=stands_on_flat(self._ramp, pose),
             launches=tuple(self._launches),
         )
 
 
-def _beyond_foot(ramp: Ramp | None, pose: Pose) -> float:
-    """One wheel on the ramp is enough."""
-    if ramp is None:
-        return 0.0
-    along, across = ramp.along_and_across(pose.x, pose.y)
-    above = abs(across) <= (ramp.width + BURGER.wheel_separation) / 2 and along <= ramp.length
-    return max(0.0, along) if above else 0.0
-
-
-def _on_flat(ramp: Ramp | None, pose: Pose) -> bool:
+def stands_on_flat(ramp: Ramp | None, pose: Pose) -> bool:
+    """Whether wheels and caster are above the ramp's flat part."""
     if ramp is None:
         return False
     cos, sin = math.cos(pose.yaw), math.sin(pose.yaw)
@@ -123,3 +115,12 @@ def _on_flat(ramp: Ramp | None, pose: Pose) -> bool:
         if not (flat and abs(across) <= ramp.width / 2):
             return False
     return True
+
+
+def _beyond_foot(ramp: Ramp | None, pose: Pose) -> float:
+    """One wheel on the ramp is enough."""
+    if ramp is None:
+        return 0.0
+    along, across = ramp.along_and_across(pose.x, pose.y)
+    above = abs(across) <= (ramp.width + BURGER.wheel_separation) / 2 and along <= ramp.length
+    return max(0.0, along) if above else 0.0

@@ -21,6 +21,7 @@ from rover_bridge.errors import (
     NumberError,
     OutOfRangeError,
 )
+from rover_bridge.insets import NO_INSETS, Insets
 from rover_bridge.numbers import parse_number, parse_numbers
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, wrap_angle
@@ -31,6 +32,8 @@ from rover_common.vehicle import ROVER
 POSITION_LIMIT = 1000.0  # [m]; the world is 200 m wide
 SPEED_LIMIT = 100.0  # [m/s]; the rover reaches 5
 ANGLE_LIMIT_DEG = 720.0
+# The simulator takes any throttle; published programs for it back out of a stop with 2 and 3.
+THROTTLE_LIMIT = 3.0
 COUNT_LIMIT = 1000  # samples; the world has 6
 TIME_LIMIT = 1e9  # [s]
 
@@ -86,7 +89,21 @@ def uses_decimal_comma(wire: object) -> bool:
     return isinstance(speed, str) and "," in speed and "." not in speed
 
 
-def encode_drive(command: Command, decimal_comma: bool = False) -> dict[str, str]:
+def shows_insets(wire: object) -> bool:
+    """Whether the client that sent this telemetry shows the insets of its answers.
+
+    Its `shows_insets` says so. The original has no such key, and shows them; a telemetry with a
+    clock is not the original's.
+    """
+    if not isinstance(wire, Mapping):
+        return False
+    said = wire.get("shows_insets")
+    return "sim_time" not in wire if said is None else str(said) == "1"
+
+
+def encode_drive(
+    command: Command, decimal_comma: bool = False, insets: Insets = NO_INSETS
+) -> dict[str, str]:
     """The object of a `data` event; a value that is not finite becomes the safe brake."""
     values = (command.steering_angle, command.throttle, command.brake)
     if not all(math.isfinite(value) for value in values):
@@ -95,12 +112,12 @@ def encode_drive(command: Command, decimal_comma: bool = False) -> dict[str, str
     steering_deg = math.degrees(max(-ROVER.max_steering, min(ROVER.max_steering, steering)))
     drive = {
         "steering_angle": f"{steering_deg:.4f}",
-        "throttle": f"{max(-1.0, min(1.0, throttle)):.4f}",
+        "throttle": f"{max(-THROTTLE_LIMIT, min(THROTTLE_LIMIT, throttle)):.4f}",
         "brake": f"{max(0.0, brake):.4f}",
     }
     if decimal_comma:  # the simulator parses in its machine's culture
         drive = {key: value.replace(".", ",") for key, value in drive.items()}
-    return drive | {"inset_image1": "", "inset_image2": ""}
+    return drive | {"inset_image1": insets.map, "inset_image2": insets.birdseye}
 
 
 def _pose(wire: Wire) -> Pose:

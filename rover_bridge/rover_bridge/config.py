@@ -21,3 +21,15 @@ class BridgeConfig:
         minimum=0.01,
         maximum=60.0,
     )
+    insets: str = parameter(
+        "auto",
+        "when answers carry pictures for the simulator's screen: always, never, or auto: for a "
+        "client that shows them",
+        choices=("auto", "always", "never"),
+    )
+    inset_period: float = parameter(
+        0.5, "[s] of wall time between two pairs of insets", minimum=0.05, maximum=60.0
+    )
+    truth: str = parameter(
+        "", "picture of the true map, for the colours of the map's inset; empty for none"
+    )

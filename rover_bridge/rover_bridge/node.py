@@ -3,7 +3,7 @@
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
 carries sim_time) and /diagnostics. Subscribes cmd_drive. Parameters: BridgeConfig. Counters:
-counters.Counter and errors.
+counters.Counter and errors. Answers may carry pictures, which node_insets draws.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import sys
 import time
 from collections import deque
+from pathlib import Path
 from typing import Any
 
 from nav_msgs.msg import Odometry
@@ -28,6 +29,7 @@ from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comm
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
+from rover_bridge.node_insets import InsetDrawer
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
 from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import (
@@ -38,6 +40,8 @@ from rover_bridge.server import (
     TelemetryReceived,
 )
 from rover_common import frames, topics
+from rover_common.errors import RoverError
+from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
 from rover_common.ros.conversions import (
     NANOSECONDS,
@@ -61,6 +65,8 @@ class BridgeNode(Node):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("bridge_node", **kwargs)
         config = declare_parameters(self, BridgeConfig)
+        truth = load_truth(Path(config.truth)) if config.truth else None
+        self._insets = InsetDrawer(self, config, truth)
         self._requests = PendingRequests(config.answer_deadline)
         self._runs = RunTracker()
         self._comma_clients: set[str] = set()
@@ -80,9 +86,11 @@ class BridgeNode(Node):
         self._publish_state()
 
     def destroy_node(self) -> None:
-        """Close the connections, end the server's thread, then the node."""
+        """Close the connections, end the server's and the insets' threads, then the node."""
         if hasattr(self, "_server"):
             self._server.close()
+        if hasattr(self, "_insets"):
+            self._insets.close()
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
@@ -127,6 +135,8 @@ class BridgeNode(Node):
                 self._warn(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
             else:
                 self.get_logger().info(f"client {event.client} disconnected")
+                if event.client == self._requests.active_client:
+                    self._insets.leave()
                 self._requests.remove_client(event.client)
                 self._comma_clients.discard(event.client)
                 self._publish_state()
@@ -165,6 +175,7 @@ class BridgeNode(Node):
             )
         )
         self._publish(stamp, run, telemetry)
+        self._insets.follow(client, event.wire, run, telemetry.pose)
 
     def _publish(self, stamp: int, run: Run, telemetry: Telemetry) -> None:
         """What the other nodes wait for comes first."""
@@ -206,8 +217,8 @@ class BridgeNode(Node):
         if answer.command.pickup:
             self._server.send(answer.client, "pickup", {})
         else:
-            drive = encode_drive(answer.command, answer.client in self._comma_clients)
-            self._server.send(answer.client, "data", drive)
+            comma, insets = answer.client in self._comma_clients, self._insets.take(answer.client)
+            self._server.send(answer.client, "data", encode_drive(answer.command, comma, insets))
 
     def _publish_state(self) -> None:
         active = self._requests.active_client
@@ -232,5 +243,5 @@ def main() -> None:
     """Entry point of `ros2 run rover_bridge bridge_node`."""
     try:
         run_node(BridgeNode, executor_class=SingleThreadedExecutor)  # it has a guard condition
-    except OSError as error:  # the port is in use, or the address is not this machine's
+    except (OSError, RoverError) as error:  # such as a port in use, or no file of the truth
         sys.exit(f"bridge_node: {error}")

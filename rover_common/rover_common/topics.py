@@ -18,3 +18,14 @@ COMMAND = "cmd_drive"  # rover_interfaces/DriveCommand
 MISSION_STATE = "mission_state"  # rover_interfaces/MissionState, latched
 PLAN = "plan"  # nav_msgs/Path
 MISSION_MARKERS = "mission_markers"  # visualization_msgs/MarkerArray
+
+# Of the second robot
+SCAN = "scan"  # sensor_msgs/LaserScan
+IMU = "imu"  # sensor_msgs/Imu
+TEMPERATURE_1 = "temperature_sensor_1"  # std_msgs/Float32MultiArray, 64 values row by row
+TEMPERATURE_2 = "temperature_sensor_2"  # the same
+CMD_VEL = "cmd_vel"  # geometry_msgs/TwistStamped or Twist
+FLYWHEEL = "flywheel"  # std_msgs/Int32, a number above 0 begins a sequence
+FLYWHEEL_STATUS = "flywheel_status"  # std_msgs/String, when a sequence has ended
+SENSOR_TICK = "sensor_tick"  # rover_interfaces/SensorTick, in lockstep
+MISSION_TICK = "mission_tick"  # std_msgs/Header, the mission's answer to a tick

@@ -137,7 +137,7 @@ class GridMap:
 class Command:
     """What the rover is to do until the next command."""
 
-    throttle: float = 0.0  # -1..1
+    throttle: float = 0.0  # 1 = 4 x 25 N m at the wheels, negative = reverse, -3..3
     brake: float = 0.0  # >= 0, 1 stops with about 2.5 m/s^2
     steering_angle: float = 0.0  # [rad] left positive
     pickup: bool = False  # pick up instead of driving

@@ -1,6 +1,7 @@
 """The decision node: perception results to drive commands, one for every frame.
 
-Subscribes odom, rover_status, nav_polar, free_scan and rocks (joined by stamp), and navigation_map.
+Subscribes odom, rover_status, nav_polar, rock_polar, free_scan and rocks (joined by stamp), and
+navigation_map.
 Publishes cmd_drive, mission_state (latched), plan and mission_markers (both while subscribed) and
 /diagnostics. Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger); action
 ~/run_mission (rover_interfaces/RunMission). Parameters: see DecisionConfig. In simulated time a
@@ -44,6 +45,7 @@ FRAME_PARTS = {
     topics.ODOMETRY: Odometry,
     topics.STATUS: RoverStatus,
     topics.NAV_POLAR: PolarArray,
+    topics.ROCK_POLAR: PolarArray,
     topics.FREE_SCAN: LaserScan,
     topics.ROCKS: RockTrackArray,
 }
@@ -173,6 +175,7 @@ def _frame_of(parts: Parts) -> Frame:
         scan=conversions.scan_of(parts[topics.FREE_SCAN]),
         rocks=conversions.rocks_of(rocks),
         map_stamp=conversions.stamp_of(rocks.map_stamp),
+        rock=conversions.polar_of(parts[topics.ROCK_POLAR]),
     )
 
 

@@ -34,6 +34,7 @@ class Frame:
     scan: FreeScan
     rocks: tuple[RockTrack, ...] = ()  # all that are confirmed
     map_stamp: int = -1  # [ns] of the newest maps that are due, this frame's or an older one's
+    rock: PolarArray = field(default_factory=PolarArray.empty)  # rock cells in view
 
     @property
     def stamp(self) -> int:

@@ -68,19 +68,27 @@ class EmbeddedNavigator:
         if self._goal is not None:
             self._goal.end(GoalStatus.CANCELLED, "replaced by another goal")
         self._goal = None
-        here = self._localizer.buffer.latest()
-        if here is None or not self.is_ready:
-            goal.end(GoalStatus.FAILED, "there is no pose in a map yet")
-        elif reason := self._ground(here).refusal(pose, tolerance):
+        if reason := self._refusal(goal):
             goal.end(GoalStatus.FAILED, reason)
         else:
             self._goal = goal
             self._run.begin(goal)
         return goal
 
+    def _refusal(self, goal: EmbeddedGoal) -> str:
+        """Why a goal cannot be driven to; empty when it can."""
+        here = self._localizer.buffer.latest()
+        if here is None or not self.is_ready:
+            return "there is no pose in a map"
+        ground = self._ground(here)
+        reason = ground.refusal(goal.pose, goal.tolerance)
+        if not reason and len(ground.path(here, goal.pose, goal.tolerance)) == 0:
+            return "no path to the goal"
+        return reason
+
     def set_hazards(self, hazards: GridMap) -> None:
         """The map with blocked places in it, which paths keep off; replaces the one before."""
-        self._hazards.set(hazards, self._localizer.map.grid())
+        self._hazards.set(hazards, self._localizer.map.cells.grid())
         self._run.replan()
 
     def pose_at(self, stamp: int) -> Pose | None:
@@ -148,10 +156,10 @@ class EmbeddedNavigator:
         return compose(pose, moved)
 
     def _ground(self, body: Pose) -> Ground:
-        return Ground(self._localizer.map.grid(), self._hazards, body, self._scale)
+        return Ground(self._localizer.map.cells.grid(), self._hazards, body, self._scale)
 
     def _map_when_due(self, stamp: int) -> GridMap | None:
         if not self._localizer.is_ready or stamp < self._next_map:
             return None
         self._next_map = stamp + round(self._config.map_period * 1e9)
-        return self._localizer.map.grid()
+        return self._localizer.map.cells.grid()

@@ -17,7 +17,7 @@ class NavigatorConfig:
         0.5, "[s] after which a path is planned again", minimum=0.1, maximum=10.0
     )
     samples: int = parameter(
-        1000, "trajectories that the controller tries in a step", minimum=50, maximum=10000
+        500, "trajectories that the controller tries in a step", minimum=50, maximum=10000
     )
     yaw_tolerance: float = parameter(
         0.08, "[rad] of the heading at a goal", minimum=0.02, maximum=3.2

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.types import GridMap
 from rover_navigation.breadcrumb_path import breadcrumb_path
 from rover_navigation.costmap import Costmap
 from rover_navigation.coverage import unsearched_cells
 from rover_navigation.frontiers import Frontier, find_frontiers, in_discs
+from rover_navigation.mapped_share import mapped_share
 from rover_navigation.path_smoothing import smooth_path
 from rover_navigation.region import Region
 from rover_navigation.roadmap import Roadmap, ShortestPaths
@@ -46,8 +48,14 @@ class _Site:
 class Planner:
     """Stateless: the same request gives the same plan."""
 
-    def __init__(self, scale: Scale, selection: Selection) -> None:
-        """selection: which of the stops comes first."""
+    def __init__(
+        self, scale: Scale, selection: Selection, truth: NDArray[np.bool_] | None = None
+    ) -> None:
+        """selection: which of the stops comes first; truth: navigable cells (rows, cols), if known.
+
+        The truth counts for nothing but the share that is explored.
+        """
+        self._truth = truth
         self._scale = scale
         self._selection = selection
 
@@ -57,7 +65,7 @@ class Planner:
         costmap = Costmap.of(request.grid, request.trail, body, self._scale, request.blocked)
         frontiers = find_frontiers(costmap, request.blacklisted, self._scale)
         centers = _centers(frontiers)
-        explored = _explored(costmap, frontiers, self._scale.unknown_depth)
+        explored = self._explored(request.grid, costmap, frontiers)
         roadmap = Roadmap(costmap, self._scale)
         everywhere = Region.everywhere(roadmap, self._scale.wide_reach)
         start = everywhere.node_at(body, self._scale.body_reach)
@@ -73,6 +81,12 @@ class Planner:
         home_seconds = float(site.seconds[home]) if home >= 0 else math.inf
         home_path = self._home_path(request, site, home)
         return Plan(request.stamp, goal, path, home_path, home_seconds, centers, explored)
+
+    def _explored(self, grid: GridMap, costmap: Costmap, frontiers: list[Frontier]) -> float:
+        """Share of the truth that is mapped, or what the map's borders imply."""
+        if self._truth is not None:
+            return mapped_share(grid, self._truth)
+        return _explored(costmap, frontiers, self._scale.unknown_depth)
 
     def _next_goal(
         self, request: PlanRequest, site: _Site, frontiers: list[Frontier], home: int

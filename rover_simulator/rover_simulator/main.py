@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import click
@@ -44,6 +45,9 @@ class Rate(click.ParamType):
               help="realtime, fast (as the server answers), or N times real time.")  # fmt: skip
 @fps_option()
 @time_limit_option(None, "End when the simulated time, which begins at 1 s, reaches this [s].")
+@click.option("--save-insets", "insets", metavar="DIR",
+              type=click.Path(file_okay=False, path_type=Path),
+              help="Save the insets that the server sends, and the screen with them.")  # fmt: skip
 @click.option("--progress", is_flag=True, help="Print a JSON line per simulated second.")
 def command(
     host: str,
@@ -53,6 +57,7 @@ def command(
     fps: float,
     time_limit: float | None,
     progress: bool,
+    insets: Path | None,
 ) -> None:
     """Run the embedded simulator alone, as a client of any rover server.
 
@@ -63,13 +68,14 @@ def command(
     Examples:
       ./rover sim --seed 3
       ./rover sim --rate fast --time-limit 600
+      ./rover sim --save-insets insets
     """
     # Imported here: the renderer takes a second, which help and completion do not need.
     from rover_simulator.run import simulate
 
     simulate(
         world.load(), world.seed, host=host, port=port, rate=rate, fps=fps,
-        time_limit=math.inf if time_limit is None else time_limit, progress=progress,
+        time_limit=math.inf if time_limit is None else time_limit, progress=progress, insets=insets,
     )  # fmt: skip
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import signal
+from pathlib import Path
 
+from rover_simulator.sensors.screen import SavedScreen
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.vehicle import STEP
 from rover_simulator.wire.pacing import LockstepPacing, Pacing, TimedPacing, run_connected
@@ -65,15 +67,18 @@ def simulate(
     fps: float,
     time_limit: float,
     progress: bool,
+    insets: Path | None,
 ) -> None:
     """Drive in the world as the server commands.
 
     rate: times real time, None as fast as the server answers; fps: frames per simulated second;
-    time_limit [s]: of simulated time.
+    time_limit [s]: of simulated time; insets: folder to save into what the screen would show.
     """
     stop = Stop()
     frame_steps = frame_steps_of(fps)
     simulation = Simulation(world, seed, frame_steps)
+    if insets is not None:
+        simulation.show_insets(SavedScreen(insets).show)
     reports = Progress(simulation, progress)
     pacing: Pacing = LockstepPacing(simulation, reports.update)
     if rate is not None:

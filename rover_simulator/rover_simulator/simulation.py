@@ -14,7 +14,7 @@ from rover_simulator.vehicle.arm import Arm
 from rover_simulator.vehicle.fixed_turn import FixedTurn
 from rover_simulator.vehicle.ground import Ground, ground_under
 from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
-from rover_simulator.wire.command_values import check_base64, parse_number
+from rover_simulator.wire.command_values import parse_base64, parse_number
 from rover_simulator.wire.telemetry_format import format_telemetry
 from rover_simulator.world import boulders
 from rover_simulator.world.terrain import terrain_of
@@ -22,6 +22,9 @@ from rover_simulator.world.world import World
 
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
 INSETS = ("inset_image1", "inset_image2", "inset_image3")  # the original shows them on its screen
+
+# Takes the time [s], the camera's JPEG file and the files of the insets by name.
+ShowInsets = Callable[[float, bytes, Mapping[str, bytes]], None]
 CONTACT_HEIGHT = 0.1  # [m] of ground under the rover that counts as touching a wall
 CONTACT_SECONDS = 0.5  # [s] after which another touch is another contact
 
@@ -47,6 +50,7 @@ class Simulation:
         self._image = b""
         self._captured_at: Pose | None = None  # None: the next image differs in any case
         self._first_row: Callable[[Pose], int] = lambda _: 0
+        self._show_insets: ShowInsets | None = None
         self._next_image = self._capture()
 
     def crop_images(self, first_row: Callable[[Pose], int]) -> None:
@@ -55,6 +59,10 @@ class Simulation:
         They decode to the same pixels as those of the whole image; rows far above stay black.
         """
         self._first_row = first_row
+
+    def show_insets(self, show: ShowInsets) -> None:
+        """Hand over the insets of each command, and tell the server that they are shown."""
+        self._show_insets = show
 
     @property
     def pose(self) -> Pose:
@@ -90,6 +98,7 @@ class Simulation:
             samples=self._arm.samples,
             image=self._image or self._next_image,
             sim_time=self.time,
+            shows_insets=self._show_insets is not None,
         )
 
     def handle(self, event: str, data: Mapping[str, Any]) -> bool:
@@ -126,8 +135,9 @@ class Simulation:
         throttle = parse_number(data["throttle"])
         self._hold(Controls(steering, throttle, before.brake))
         self._hold(Controls(steering, throttle, parse_number(data.get("brake", "0"))))
-        for key in INSETS:
-            check_base64(data.get(key, ""))
+        insets = {key: parse_base64(data.get(key, "")) for key in INSETS}
+        if self._show_insets is not None:
+            self._show_insets(self.time, self._image or self._next_image, insets)
 
     def _pick_up(self, _: Mapping[str, Any]) -> None:
         if not self._held:

@@ -144,7 +144,7 @@ def test_every_defect_has_a_counter_of_its_own():
 
 
 @given(
-    throttle=st.floats(-2, 2),
+    throttle=st.floats(-5, 5),
     brake=st.floats(-1, 20),
     steering=st.floats(-1, 1),
     decimal_comma=st.booleans(),
@@ -157,7 +157,7 @@ def test_commands_are_strings_that_the_simulator_can_parse(
     mark = "," if decimal_comma else "."
     numbers = {key: float(data[key].replace(mark, ".")) for key in list(data)[:3]}
     assert abs(numbers["steering_angle"]) <= 15.0
-    assert abs(numbers["throttle"]) <= 1.0
+    assert numbers["throttle"] == pytest.approx(max(-3.0, min(3.0, throttle)), abs=1e-4)
     assert numbers["brake"] >= 0.0
 
 

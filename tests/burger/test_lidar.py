@@ -8,6 +8,7 @@ from sensor_runs import run, scans
 from worlds import ramp_ahead, square
 
 from burger_simulator.options import BurgerOptions
+from burger_simulator.sensors import lidar
 from burger_simulator.simulation import BurgerSimulation
 from rover_common.geometry import Pose
 from rover_common.sensor_types import Twist
@@ -26,7 +27,7 @@ def test_a_scan_shows_the_walls_with_the_sensors_errors():
     errors = []
     for scan in scans(run(BurgerSimulation(square(1.5), 1), 20.0)):
         assert len(scan.ranges) == 230
-        assert (scan.range_min, scan.range_max) == (0.16, 8.0)
+        assert (scan.range_min, scan.range_max) == pytest.approx((0.16, 8.0))
         bearings = scan.angle_min + scan.angle_increment * np.arange(230)
         errors.append(scan.ranges - square_ranges(bearings, 1.5, -0.032))
     lost = np.array(errors) < -0.5
@@ -46,8 +47,10 @@ def test_what_is_out_of_reach_reads_zero():
     assert scan.ranges[scan.ranges > 0.0].min() >= 0.16
 
 
-def test_a_turning_robots_scan_is_skewed_as_its_times_say():
+def test_a_turning_robots_scan_is_skewed_as_its_times_say(monkeypatch):
     """Undone by the true heading at each ray's time, walls are where they are."""
+    monkeypatch.setattr(lidar, "SIGMA", 0.0)
+    monkeypatch.setattr(lidar, "SIGMA_SHARE", 0.0)
     simulation = BurgerSimulation(square(1.5), 1)
     run(simulation, 1.0, Twist(0.0, 1.8))
     times, headings, found = [], [], []
@@ -66,7 +69,7 @@ def test_a_turning_robots_scan_is_skewed_as_its_times_say():
         points = centre + ranges * np.exp(1j * bearings)
         off = np.maximum(np.abs(points.real), np.abs(points.imag)) - 1.4975
         worst.append(np.nanstd(off))
-    assert np.mean(worst) < 0.025
+    assert np.mean(worst) < 0.003
     assert found[0].time_increment == pytest.approx(0.1 / 230)
 
 

@@ -48,6 +48,7 @@ def test_the_ramps_foot_is_reached_and_its_way_free(family, mazes):
         maze = mazes[family, seed]
         assert maze.ramp is not None
         space = FreeSpace(replace(maze, ramp=None), BURGER.body_radius)
+        assert not FreeSpace(maze, BURGER.body_radius).reaches(maze.ramp.x, maze.ramp.y)
         for along in (-0.4, -0.2, 0.0, 0.6, maze.ramp.length):
             x = maze.ramp.x + along * math.cos(maze.ramp.yaw)
             y = maze.ramp.y + along * math.sin(maze.ramp.yaw)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ def written(batches: list[SensorBatch]) -> list[bytes]:
     return [
         b"".join(
             [repr((b.stamp, b.imus, b.odometry, b.launches_done)).encode()]
-            + [repr(s.stamp).encode() + s.ranges.tobytes() for s in b.scans]
+            + [repr(replace(s, ranges=s.ranges.tobytes())).encode() for s in b.scans]
             + [repr((f.stamp, f.sensor)).encode() + f.celsius.tobytes() for f in b.thermal]
         )
         for b in batches

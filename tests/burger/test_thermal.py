@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -61,6 +62,14 @@ def test_a_wall_before_a_patch_hides_it_and_its_other_face_is_cold():
         source = type(warm_wall_ahead())(**(on_screen | {"both_faces": both}))
         maze = square(sources=(source,), inner=(screen,))
         assert low < frames(run(BurgerSimulation(maze, 1), 1.0), 2).max() < high
+
+
+def test_a_patch_on_the_other_side_of_the_wall_behind_is_not_seen():
+    screen = Wall(0.5, -0.5, 0.5, 0.5)
+    source = replace(warm_wall_ahead(), x=0.5025, normal=0.0)
+    start = Pose(0.3, 0.0, math.pi)
+    maze = square(sources=(source,), inner=(screen,), start=start)
+    assert frames(run(BurgerSimulation(maze, 1), 1.0), 2).max() < 24.0
 
 
 def test_the_offsets_noise_and_steps_of_a_reading():

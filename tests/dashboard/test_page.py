@@ -87,7 +87,7 @@ async def shows_the_mission(driver: Driver) -> None:
 
 async def obeys(driver: Driver) -> None:
     """Every parameter and every button."""
-    await driver.choose("explorer", "wall_follow_b")
+    await driver.choose("explorer", "classic_b")
     assert await until(
         lambda: driver.mission.reason in ("follows the wall", "turns to find free ground")
     )

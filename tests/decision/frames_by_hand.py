@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -10,7 +11,7 @@ import numpy as np
 from maps import MIDDLE, straight_plan
 from scans import BEARINGS, RANGE, open_scan
 
-from rover_common.geometry import Pose
+from rover_common.geometry import Pose, bearing_to
 from rover_common.types import FIRST_RUN, FreeScan, PolarArray, RockTrack, Run, VehicleState
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
@@ -20,7 +21,6 @@ from rover_navigation.plan_scheduler import PlanStatus
 from rover_navigation.types import Plan, PlanFailed
 
 CONFIG = DecisionConfig()
-WALL_FOLLOWER = DecisionConfig(explorer="wall_follow_b")
 PLAN = straight_plan()
 STEP = 0.1  # [s] between two frames
 AWAY = Pose(MIDDLE.x + 2.5, MIDDLE.y, 0.0)  # a step of the rover, but not home any more
@@ -55,11 +55,20 @@ def frame(
 def frame_of(
     vehicle: VehicleState, scan: FreeScan, rocks: tuple[RockTrack, ...], map_stamp: int
 ) -> Frame:
-    """Each bearing holds as many ground cells as its free length."""
+    """Each bearing holds a ground cell in every quarter of a metre of its free length."""
     lengths = (4 * np.minimum(scan.ranges, RANGE)).astype(int)
     bearings = np.repeat(BEARINGS, lengths).astype(np.float32)
-    nav = PolarArray(np.ones_like(bearings), bearings)
-    return Frame(vehicle, nav, scan, rocks, map_stamp)
+    counts = np.arange(len(bearings)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+    nav = PolarArray(((counts + 1) / 4).astype(np.float32), bearings)
+    return Frame(vehicle, nav, scan, rocks, map_stamp, _rock_cells(vehicle.pose, rocks))
+
+
+def _rock_cells(pose: Pose, rocks: tuple[RockTrack, ...]) -> PolarArray:
+    """One cell for each rock in view."""
+    ranges = [math.hypot(each.x - pose.x, each.y - pose.y) for each in rocks]
+    bearings = [bearing_to(pose, each.x, each.y) for each in rocks]
+    seen = np.abs(np.array(bearings, float)) < BEARINGS.max()
+    return PolarArray(np.array(ranges, np.float32)[seen], np.array(bearings, np.float32)[seen])
 
 
 class DrivenMission:

@@ -31,6 +31,7 @@ PARTS = {
     topics.ODOMETRY: Odometry,
     topics.STATUS: RoverStatus,
     topics.NAV_POLAR: PolarArray,
+    topics.ROCK_POLAR: PolarArray,
     topics.FREE_SCAN: LaserScan,
     topics.ROCKS: RockTrackArray,
 }
@@ -84,6 +85,7 @@ class NodeBench:
             conversions.odometry_of(stamp, vehicle.pose, vehicle.speed),
             status,
             conversions.polar_message_of(stamp, run, shown.nav),
+            conversions.polar_message_of(stamp, run, shown.rock),
             conversions.scan_message_of(stamp, shown.scan),
             conversions.rocks_message_of(stamp, run, shown.rocks, map_stamp),
         )

@@ -5,34 +5,15 @@ from __future__ import annotations
 from functools import partial
 
 from cores import HandPlanner
-from frames_by_hand import AWAY, CONFIG, WALL_FOLLOWER, exploring, nanoseconds
+from frames_by_hand import AWAY, CONFIG, exploring, nanoseconds
 from maps import straight_plan
 
-from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.mission import SampleReturnMission
 from rover_decision.types import Request
 
 SLOW = DecisionConfig(top_speed=0.5)
-
-
-def test_another_explorer_drives_from_the_next_frame_on():
-    mission = exploring()
-    assert mission.tick().reason.startswith("drives to")
-    mission.mission.configure(WALL_FOLLOWER)
-    assert mission.tick().reason == "follows the wall"
-    assert mission.tick(plan=None).state is State.FORWARD  # it needs no plan any more
-    mission.mission.configure(CONFIG)
-    assert mission.tick().reason.startswith("drives to")
-
-
-def test_an_explorer_that_needs_plans_watches_them_again():
-    mission = exploring(WALL_FOLLOWER)
-    old = 2 * CONFIG.plan_max_age
-    mission.tick(plan_age=old)
-    assert mission.tick(plan_age=old).state is State.FORWARD
-    mission.mission.configure(CONFIG)
-    assert mission.tick(plan_age=old).state is State.HOLD
+CLASSIC = DecisionConfig(explorer="classic_b")
 
 
 def test_another_top_speed_counts_at_once():
@@ -69,7 +50,7 @@ def test_what_the_mission_remembers_stays():
     before = mission.tick().progress
     parts = mission.mission._parts
     dropped = len(parts.breadcrumbs.points)
-    mission.mission.configure(WALL_FOLLOWER)
+    mission.mission.configure(CLASSIC)
     after = mission.tick().progress
     assert after.elapsed > before.elapsed
     assert after.recoveries == before.recoveries
@@ -80,7 +61,7 @@ def test_what_the_mission_remembers_stays():
 def test_a_new_mission_begins_with_the_parameters_and_planner_in_force(make_bench):
     bench, other = make_bench(), HandPlanner(straight_plan())
     bench.steps(1.0)
-    bench.core.configure(WALL_FOLLOWER, partial(SampleReturnMission, WALL_FOLLOWER), other)
+    bench.core.configure(CLASSIC, partial(SampleReturnMission, CLASSIC), other)
     bench.begin_run()
     reasons = {decision.reason for decision in bench.steps(1.0)}
     assert "follows the wall" in reasons

@@ -1,4 +1,4 @@
-"""Exploring: along plans, along walls, and what stops it."""
+"""Exploring along plans, and what stops it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import dataclasses
 import math
 
 import pytest
-from frames_by_hand import CONFIG, PLAN, WALL_FOLLOWER, DrivenMission, exploring
+from frames_by_hand import PLAN, DrivenMission, exploring
 from maps import MIDDLE, straight_plan
 
 from rover_common.geometry import Pose
@@ -35,17 +35,6 @@ def test_a_path_behind_is_turned_to_in_place_without_the_brake():
     standing = mission.tick(plan=behind)
     assert standing.command.brake == standing.command.throttle == 0
     assert abs(standing.command.steering_angle) == pytest.approx(ROVER.max_steering)
-
-
-def test_a_wall_ahead_stops_a_wall_follower_and_then_turns_it():
-    mission = exploring(WALL_FOLLOWER)
-    fast = mission.tick(ahead=1.0, speed=1.5)
-    assert fast.state is State.STOP
-    assert fast.command.brake > 0
-    slow = mission.tick(ahead=1.0)
-    assert slow.command.brake == slow.command.throttle == 0
-    assert slow.command.steering_angle == pytest.approx(ROVER.max_steering)
-    assert mission.tick().state is State.FORWARD
 
 
 def test_an_obstacle_on_the_path_stops_it_until_another_path_is_free():
@@ -102,10 +91,6 @@ def test_an_obstacle_ahead_does_not_keep_it_from_observing_its_goal():
         assert decision.command.throttle == decision.command.brake == 0
 
 
-def test_without_ground_in_sight_a_wall_follower_brakes():
-    assert exploring(WALL_FOLLOWER).tick(ahead=0.0).command.throttle <= 0
-
-
 def test_steering_to_one_side_for_long_is_a_circle_which_it_leaves():
     mission = exploring()
 
@@ -139,9 +124,8 @@ def test_when_nothing_is_left_it_goes_home_and_stays():
     assert (later.command.brake, later.command.throttle) == (1.0, 0.0)
 
 
-def test_a_wall_follower_is_done_when_all_samples_are_collected():
-    assert exploring(WALL_FOLLOWER).tick(sample_count=0).state is State.RETURN_HOME
-    assert exploring(CONFIG).tick(sample_count=0).state is State.FORWARD  # it maps on
+def test_it_maps_on_when_all_samples_are_collected():
+    assert exploring().tick(sample_count=0).state is State.FORWARD
 
 
 def test_when_the_time_is_up_it_goes_home():

@@ -6,10 +6,9 @@ from functools import partial
 
 import pytest
 from cores import CoreBench
-from frames_by_hand import AWAY, CONFIG, WALL_FOLLOWER, rock
+from frames_by_hand import AWAY, CONFIG, rock
 from maps import MIDDLE, UNKNOWN
 
-from rover_common.geometry import Pose
 from rover_common.types import SAFE_COMMAND
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.states.hold import DEADLINE
@@ -139,13 +138,6 @@ class TestStaleInputs:
         assert driving.step(rocks=near).state is State.ROCK_APPROACH
         driving.planner.fails = True
         assert not any(map(holds, driving.steps(1.0, rocks=near)))
-
-    def test_a_wall_follower_needs_no_plans(self, make_bench):
-        bench = make_bench(config=WALL_FOLLOWER)
-        bench.planner.fails = True
-        for step in range(60):
-            pose = Pose(MIDDLE.x + 0.1 * step, MIDDLE.y, 0.0)
-            assert bench.step(pose=pose, map_age=2 * MAX_AGE).state is State.FORWARD
 
 
 class TestPlannerThatHangs:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-import pytest
 from chart_model import EXPLORING
-from frames_by_hand import CONFIG, WALL_FOLLOWER
+from frames_by_hand import CONFIG
 from rough_missions import run_rough_mission
 
 from rover_common.types import SAFE_COMMAND
@@ -17,10 +16,9 @@ from rover_decision.types import Decision, Frame
 AT_REST = {State.IDLE, State.DONE, State.PAUSED, State.HOLD}
 
 
-@pytest.mark.parametrize("config", [CONFIG, WALL_FOLLOWER], ids=["tour", "wall follower"])
-def test_every_frame_keeps_the_rules(config):
+def test_every_frame_keeps_the_rules():
     history: list[tuple[Frame, Decision]] = []
-    last = run_rough_mission(config, 80.0, lambda *both: history.append(both))
+    last = run_rough_mission(CONFIG, 80.0, lambda *both: history.append(both))
     states = [decision.state for _, decision in history]
     wanted = {State.FORWARD, State.PICKUP, State.TILT, State.STUCK, State.HOLD, State.RETURN_HOME}
     assert wanted <= set(states)

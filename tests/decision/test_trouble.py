@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from frames_by_hand import CONFIG, WALL_FOLLOWER, exploring
+from frames_by_hand import exploring
 from maps import MIDDLE
 
 from rover_common.geometry import Pose
@@ -67,14 +67,13 @@ def test_each_trouble_of_the_rover_is_an_event_that_says_the_same():
     assert set(DETECTORS) == set(Trouble)
 
 
-@pytest.mark.parametrize("config", [CONFIG, WALL_FOLLOWER], ids=["tour", "wall follower"])
 @pytest.mark.parametrize(
     ("after", "pose"),
     [(GAP_SECONDS + 0.1, MIDDLE), (0.1, Pose(MIDDLE.x + JUMP + 0.1, MIDDLE.y, 0.0))],
     ids=["gap", "jump"],
 )
-def test_missing_frames_and_jumps_stop_it_until_it_stands(config, after, pose):
-    mission = exploring(config)
+def test_missing_frames_and_jumps_stop_it_until_it_stands(after, pose):
+    mission = exploring()
     mission.tick(after)
     held = mission.tick(pose=pose, speed=1.0)
     assert (held.state, held.command) == (State.HOLD, SAFE_COMMAND)

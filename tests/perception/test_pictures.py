@@ -70,6 +70,13 @@ def test_nothing_is_shown_beyond_the_range():
     assert at(picture, 12.0, 0.0) == UNKNOWN
 
 
+def test_ground_whose_end_is_not_known_does_not_turn_into_an_obstacle():
+    pose = Pose(90.0, 100.0, 0.0)
+    picture = seen_from_above(pose, draw(pose, lambda x, y: x < 1e9))  # up to the horizon
+    assert at(picture, 3.0, 0.0) == NAVIGABLE
+    assert at(picture, 8.0, 0.0) == UNKNOWN
+
+
 def test_a_rock_is_green():
     pose = Pose(90.0, 100.0, 0.0)
     image = draw(pose, corridor)

@@ -49,7 +49,7 @@ def test_each_default_is_the_programs(name):
 
 def test_the_telemetrys_keys_are_those_sent_in_their_order():
     rows = table("Telemetry", "key")
-    assert [row[0].strip("`") for row in rows] == list(telemetry(sim_time=1.0))
+    assert [row[0].strip("`") for row in rows] == list(telemetry(sim_time=1.0, shows_insets=True))
 
 
 def test_the_events_are_those_that_are_answered():

@@ -73,6 +73,9 @@ def test_plots_show_shares_with_a_truth_and_area_without():
     titles = [plot.title for plot in plots_of(LOGS["truth"].track)]
     assert "Mapped, fidelity [%]" in titles
     assert "Mapped ground [m²]" in [plot.title for plot in plots_of(LOGS["no truth"].track)]
+    explored = plots_of(LOGS["no truth"].track)[-3]
+    assert explored.title == "Explored, as the rover estimates [%]"
+    assert explored.lines[0].values[40] == 40.0
     assert plots_of(()) == []
 
 
@@ -128,4 +131,4 @@ async def _shown(tmp_path) -> dict[int, tuple]:
 @needs_browser
 def test_a_browser_shows_maps_and_plots_at_both_widths_without_a_network(tmp_path):
     shown = asyncio.run(_shown(tmp_path))
-    assert shown == {width: (width, 6, "50 s, RETURN_HOME") for width in (1280, 390)}
+    assert shown == {width: (width, 7, "50 s, RETURN_HOME") for width in (1280, 390)}

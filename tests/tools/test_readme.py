@@ -8,9 +8,11 @@ import click
 import pytest
 
 from rover_tools.cli.bench import group as bench
+from rover_tools.cli.heat import group as heat
 from rover_tools.cli.main import TABLE, rover
 
 README = Path(__file__).resolve().parents[2] / "rover_tools" / "README.md"
+GROUPS = {"bench": bench.TABLE, "heat": heat.TABLE}
 ELSEWHERE = {"sim"}  # rover_simulator's README has its options
 
 
@@ -22,8 +24,12 @@ def table(heading: str) -> list[list[str]]:
 
 def entries() -> dict[str, str]:
     """What the lists of commands say, by `mission` or `bench graph`."""
-    inner = {f"bench {name}": entry.summary for name, entry in bench.TABLE.items()}
-    outer = {name: entry.summary for name, entry in TABLE.items() if name != "bench"}
+    inner = {
+        f"{group} {name}": entry.summary
+        for group, table in GROUPS.items()
+        for name, entry in table.items()
+    }
+    outer = {name: entry.summary for name, entry in TABLE.items() if name not in GROUPS}
     return outer | inner
 
 

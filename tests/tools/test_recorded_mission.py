@@ -81,7 +81,7 @@ class Recorded:
                 state = MissionState(
                     header=header_of(stamp, "map"), state_name=changes[elapsed], reason="because",
                     elapsed=elapsed, samples_total=3, samples_collected=int(elapsed > 4),
-                    home_distance=elapsed,
+                    home_distance=elapsed, explored=elapsed / 10,
                 )  # fmt: skip
                 self.write(topics.MISSION_STATE, time, state)
 
@@ -103,6 +103,14 @@ def test_the_track_and_the_states_are_those_of_the_mission(recorded):
     assert [point.x for point in log.track] == pytest.approx([50.0 + t for t in range(10)], abs=0.2)
     assert [change.state for change in log.changes] == [state for _, state in STATES]
     assert [change.time for change in log.changes] == pytest.approx([0, 4, 6, 9], abs=0.2)
+
+
+def test_without_a_truth_the_track_has_progress_all_the_same(recorded):
+    recorded.mission(100.0)
+    last = read_mission(recorded.close(), Truth()).log("recorded", {}).track[-1]
+    assert (last.time, last.x, last.speed, last.state) == (9.0, 59.0, 1.0, "DONE")
+    assert (last.samples, last.home_distance, last.explored) == (1, 9.0, 90.0)
+    assert (last.mapped_area, last.percent_mapped, last.fidelity) == (1200.0, None, None)
 
 
 def test_the_map_counts_from_when_it_came(recorded):

@@ -10,7 +10,7 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from scoreboard_rows import FILES, job_of, row_of
+from scoreboard_rows import FILES, job_of, row_of, store_in
 from tqdm import tqdm
 
 from rover_common.geometry import Pose
@@ -28,8 +28,8 @@ from rover_tools.scoreboard import cluster
 from rover_tools.scoreboard import run as scoreboard
 from rover_tools.scoreboard.errors import ScoreboardError
 from rover_tools.scoreboard.job import Ground, Job, make_jobs
-from rover_tools.scoreboard.mission_run import ROW_KEYS, CompletedMission, failed_row
-from rover_tools.scoreboard.store import Store
+from rover_tools.scoreboard.mission_run import ROW_KEYS, failed_row
+from rover_tools.scoreboard.missions import CompletedMission
 
 
 @pytest.fixture
@@ -67,9 +67,9 @@ def test_defaults_are_a_few_generated_canyons(jobs_of):
 def test_worlds_and_map_with_each_strategy(tmp_path, world, jobs_of):
     world.save(tmp_path)
     options = ["--map", str(tmp_path / "map.png"), "--seeds", "8,9", "--fps", "12.5"]
-    strategies = ["--strategies", "tour,wall_follow_a+bearing,tour+breadcrumbs"]
+    strategies = ["--strategies", "tour,classic_a+bearing,tour+breadcrumbs"]
     assert [job.name for job in jobs_of(*options, *strategies)] == [
-        "map-8-tour", "map-8-wall_follow_a+bearing", "map-9-tour", "map-9-wall_follow_a+bearing",
+        "map-8-tour", "map-8-classic_a+bearing", "map-9-tour", "map-9-classic_a+bearing",
     ]  # fmt: skip
     assert [job.name for job in jobs_of(*options, "--worlds", "1")] == [
         "generated-1-tour", "map-8-tour", "map-9-tour",
@@ -94,7 +94,7 @@ def test_a_map_travels_as_plain_data(tmp_path, world):
 
 def test_only_what_is_missing_is_left(tmp_path):
     jobs = [job_of(seed=seed) for seed in (1, 2, 3)]
-    store = Store(tmp_path)
+    store = store_in(tmp_path)
     assert store.missing(jobs) == jobs
     store.add(jobs[0], row_of(jobs[0]), FILES)
     store.add(jobs[1], failed_row(jobs[1], RuntimeError("no way")), None)
@@ -105,7 +105,7 @@ def test_only_what_is_missing_is_left(tmp_path):
 
 
 def test_a_file_that_was_being_written_does_not_count(tmp_path):
-    store = Store(tmp_path)
+    store = store_in(tmp_path)
     (tmp_path / "missions" / ".generated-1-tour.json.77").write_text("{")
     assert store.missing([job_of()]) == [job_of()]
 
@@ -120,14 +120,14 @@ def test_a_file_that_was_being_written_does_not_count(tmp_path):
     ],
 )
 def test_missions_of_other_settings_are_not_mixed(tmp_path, other):
-    store = Store(tmp_path)
+    store = store_in(tmp_path)
     store.add(job_of(), row_of(job_of()), FILES)
     with pytest.raises(ScoreboardError, match="choose another --out"):
         store.missing([other])
 
 
 def test_a_broken_file_is_one_sentence(tmp_path):
-    store = Store(tmp_path)
+    store = store_in(tmp_path)
     (tmp_path / "missions" / "generated-1-tour.json").write_text("[]")
     with pytest.raises(ScoreboardError, match=r"generated-1-tour\.json is not a mission"):
         store.entries()
@@ -158,7 +158,7 @@ def made_up(monkeypatch):
     monkeypatch.setattr(tqdm, "monitor_interval", 0)  # its thread would outlive the test
     asked: list[str] = []
 
-    def run_all(_, jobs, on_start, while_waiting):
+    def run_all(_, jobs, run, on_start, while_waiting):
         on_start("the first missions have started")
         for job in jobs:
             asked.append(job.name)
@@ -220,7 +220,9 @@ def test_waiting_for_missions_is_interrupted_every_second(monkeypatch):
 
     monkeypatch.setattr(cluster, "wait", wait)
     ticks: list[int] = []
-    outcomes = cluster.run_all(client, [job], while_waiting=lambda: ticks.append(len(answers)))
+    outcomes = cluster.run_all(
+        client, [job], run=Mock(), while_waiting=lambda: ticks.append(len(answers))
+    )
     assert list(outcomes) == [(job, "over")]
     assert ticks == [2, 1, 0]
 

@@ -9,14 +9,18 @@ import chromium as browser_tools
 import pytest
 from chromium import chromium
 from mission_logs import mission_log
-from scoreboard_rows import FILES, entry_of, failed_entry, job_of, row_of
+from scoreboard_rows import FILES, entry_of, failed_entry, job_of, row_of, store_in
 
 from rover_tools.report.mission_page import mission_map
+from rover_tools.scoreboard import report
+from rover_tools.scoreboard.board import summaries
 from rover_tools.scoreboard.mission_run import failed_row
-from rover_tools.scoreboard.report import write_report
+from rover_tools.scoreboard.rover_board import BOARD
 from rover_tools.scoreboard.scatter import scatter_of
-from rover_tools.scoreboard.store import Store
-from rover_tools.scoreboard.table import summaries
+
+
+def write_report(folder, entries):
+    report.write_report(folder, BOARD, entries, summaries(BOARD, entries))
 
 
 class Page(HTMLParser):
@@ -34,14 +38,14 @@ class Page(HTMLParser):
 
 
 def test_the_page_links_every_mission_to_its_files_and_nothing_from_outside(tmp_path):
-    store = Store(tmp_path)
+    store = store_in(tmp_path)
     jobs = [job_of("tour"), job_of("frontier+bearing", seed=2)]
     for job in jobs:
         store.add(job, row_of(job), FILES)
     bad = job_of(seed=3)
     store.add(bad, failed_row(bad, RuntimeError("lost <its> way")), None)
     entries = store.entries()
-    write_report(tmp_path, entries, summaries(entries))
+    write_report(tmp_path, entries)
     text = (tmp_path / "report.html").read_text()
     page = Page(text)
     for name in ("seed-1", "seed-2", "seed-3", "failed: RuntimeError: lost <its> way"):
@@ -56,7 +60,7 @@ def test_the_page_links_every_mission_to_its_files_and_nothing_from_outside(tmp_
 
 
 def test_an_empty_report(tmp_path):
-    write_report(tmp_path, [], [])
+    write_report(tmp_path, [])
     assert "0 missions" in (tmp_path / "report.html").read_text()
 
 
@@ -104,14 +108,14 @@ async def _widths(tmp_path) -> dict[int, tuple]:
 
 @pytest.mark.skipif(browser_tools.executable() is None, reason="no browser")
 def test_page_and_maps_fit_a_desktop_and_a_phone(tmp_path):
-    store = Store(tmp_path)
+    store = store_in(tmp_path)
     files = FILES | {".svg": mission_map(mission_log()).encode()}
-    for strategy in ("tour", "wall_follow_a+breadcrumbs"):
+    for strategy in ("tour", "classic_a+bearing"):
         for seed in (1, 2):
             job = job_of(strategy, seed)
             store.add(job, row_of(job), files)
     bad = job_of(seed=3)
     store.add(bad, failed_row(bad, RuntimeError("a long message " * 9 + "x" * 60)), None)
     entries = store.entries()
-    write_report(tmp_path, entries, summaries(entries))
+    write_report(tmp_path, entries)
     assert asyncio.run(_widths(tmp_path)) == {w: (w, True, True) for w in (1280, 390)}

@@ -5,8 +5,17 @@ from __future__ import annotations
 import pytest
 from scoreboard_rows import entry_of, failed_entry, job_of, row_of
 
+from rover_tools.scoreboard import board
+from rover_tools.scoreboard.board import as_text
+from rover_tools.scoreboard.figures import Share, Spread
 from rover_tools.scoreboard.job import Ground
-from rover_tools.scoreboard.table import Share, Spread, as_text, is_home, summaries
+from rover_tools.scoreboard.rover_board import BOARD
+from rover_tools.scoreboard.rover_table import LEGEND, is_home
+
+
+def summaries(entries):
+    return board.summaries(BOARD, entries)
+
 
 # The table
 
@@ -22,6 +31,7 @@ def test_wilson_interval_by_hand():
     # p = 1: from n / (n + z^2) to 1
     assert Share.of([True] * 40).low == pytest.approx(40 / (40 + 1.96**2), abs=1e-3)
     assert str(Share.of([True] * 40)) == "40 of 40 (91-100 %)"
+    assert str(Share.of([])) == "0 of 0 (0-100 %)"
 
 
 def test_spread_leaves_out_what_is_not_known():
@@ -47,7 +57,7 @@ def test_summary_by_hand():
     assert (tour.mapped.median, tour.mapped.worst) == (98.0, 90.0)
     assert (tour.oracle_ratio.mean, tour.oracle_ratio.worst) == (2.5, 3.0)  # of those at home
     assert (tour.contacts.mean, tour.recoveries.mean) == (1.0, 2.0)
-    text = as_text([frontier, tour])
+    text = as_text([frontier, tour], LEGEND)
     assert "2 of 4 (15-85 %)" in text
     assert "4, 1 failed" in text
     assert "467 / 300 / 900" in text
@@ -67,6 +77,3 @@ def test_groups_are_apart():
         ("drawn", 1),
         ("generated", 1),
     ]
-
-
-# The report

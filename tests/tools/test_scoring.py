@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from rover_common.ground_truth import TruthError, load_truth
 from rover_common.map_encoding import navigable_cells
-from rover_tools.evaluation.scoring import score_map, score_rocks
+from rover_tools.evaluation.scoring import score_map, score_places
 
 MAPS = arrays(bool, (8, 8))
 
@@ -51,7 +51,7 @@ def points(*xy: tuple[float, float]) -> np.ndarray:
     ],
 )
 def test_rocks(found, true, expected):
-    score = score_rocks(found, true)
+    score = score_places(found, true)
     assert (score.located, score.missed, score.false) == expected
 
 

@@ -70,8 +70,8 @@ def options_of(command: str, *arguments: str) -> MissionOptions:
 @pytest.mark.parametrize("command", ["demo", "mission"])
 def test_a_mission_takes_a_strategy_by_either_name(command):
     for option in ("--explorer", "--strategy"):
-        options = options_of(command, option, "wall_follow_b+bearing")
-        assert options.chosen_strategy() == Strategy("wall_follow_b", "bearing")
+        options = options_of(command, option, "classic_b+breadcrumbs")
+        assert options.chosen_strategy() == Strategy("classic_b", "breadcrumbs")
     assert options_of(command).chosen_strategy() == Strategy()
 
 

@@ -15,6 +15,7 @@ from node_endpoints import PROFILES, endpoints, listed
 from rclpy.node import Node
 from readme_tables import ROOT, column, table
 
+from burger_simulator.node import BurgerNode
 from rover_bridge import errors, pending_requests, run_tracker
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
@@ -29,7 +30,12 @@ COMMON = ROOT / "rover_common" / "README.md"
 BRINGUP = ROOT / "rover_bringup" / "README.md"
 INTERFACES = ROOT / "rover_interfaces" / "README.md"
 LAUNCH = ROOT / "rover_bringup" / "launch" / "mission.launch.py"
-NODES = {"bridge": BridgeNode, "perception": PerceptionNode, "decision": DecisionNode}
+NODES = {
+    "burger": BurgerNode,
+    "bridge": BridgeNode,
+    "perception": PerceptionNode,
+    "decision": DecisionNode,
+}
 
 
 def words(policy: IntEnum) -> str:
@@ -50,7 +56,7 @@ def test_the_bridges_parameters_are_those_of_its_configuration():
     for row, field in zip(rows, fields(BridgeConfig), strict=True):
         info = field.metadata["parameter"]
         limits = "" if info.minimum is None else f"{info.minimum} to {info.maximum}"
-        assert (row["default"], row["range"]) == (str(field.default), limits), field.name
+        assert (row["default"], row["range"]) == (str(field.default) or "none", limits), field.name
 
 
 def test_the_bridges_counters_are_those_counted():

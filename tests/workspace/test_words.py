@@ -22,7 +22,7 @@ WORDS = {
     r"\bdesk\b|plandesk": "plan scheduler",
     r"\bdata_?flow\b": "types",
     r"\broomy\b|roomier": "wide, clearance",
-    r"\bfoot of|\bfeet of|walls?' (foot|feet)": "base (of a wall)",
+    r"\b(foot|feet) of (an? |the )?walls?|walls?'s? (foot|feet)": "base (of a wall)",
     r"\blooked at\b|\bfoot looks?\b": "observed, observations",
     r"\bbelieved?\b": "confirmed",
     r"\brockdetection\b": "RockTrack",

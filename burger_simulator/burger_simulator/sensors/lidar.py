@@ -52,9 +52,9 @@ class Lidar:
         return LaserScan(
             stamp=stamp + half_part - round(self._parts * PART * 1e9),
             angle_min=0.0,
-            angle_increment=self._increment,
-            time_increment=1.0 / SAMPLES,
-            range_min=BURGER.lidar_range_min,
+            angle_increment=float(np.float32(self._increment)),  # as the message has it
+            time_increment=float(np.float32(1.0 / SAMPLES)),
+            range_min=float(np.float32(BURGER.lidar_range_min)),
             range_max=BURGER.lidar_range_max,
             ranges=ranges,
         )

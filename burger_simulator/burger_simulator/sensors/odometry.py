@@ -11,6 +11,7 @@ from rover_common.geometry import Pose, wrap_angle
 from rover_common.sensor_types import Twist, WheelOdometry
 
 RATE = 30  # [1/s]
+DECIMALS = 9  # of a heading, which its message keeps for certain
 
 
 class Odometer:
@@ -34,9 +35,8 @@ class Odometer:
         seconds = (stamp - self._stamp) / 1e9
         twist = Twist(path / seconds, (yaw - self._yaw) / seconds)
         self._angles, self._yaw, self._stamp = (left, right), yaw, stamp
-        return WheelOdometry(
-            stamp, Pose(self._x, self._y, wrap_angle(yaw - self._start_yaw)), twist
-        )
+        heading = round(wrap_angle(yaw - self._start_yaw), DECIMALS)
+        return WheelOdometry(stamp, Pose(self._x, self._y, heading), twist)
 
 
 def wheel_speeds(twist: Twist) -> tuple[float, float]:

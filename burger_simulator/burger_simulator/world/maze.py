@@ -145,7 +145,5 @@ def _maze_of(data: dict[str, Any]) -> Maze:
 
 
 def _plain(data: dict[str, Any]) -> dict[str, Any]:
-    """A wall's four numbers on a line of their own; tuples as lists."""
-    errors = {key: list(v) if isinstance(v, tuple) else v for key, v in data["errors"].items()}
-    walls = [list(wall.values()) for wall in data["walls"]]
-    return data | {"walls": walls, "sources": list(data["sources"]), "errors": errors}
+    """A wall as its four numbers."""
+    return data | {"walls": [list(wall.values()) for wall in data["walls"]]}

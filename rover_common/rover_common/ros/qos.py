@@ -35,6 +35,34 @@ VIEW = QoSProfile(
     durability=DurabilityPolicy.VOLATILE,
 )
 
+# What the second robot's sensors say, as its drivers publish it: nobody waits for a lost scan.
+SCAN = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=5,
+    reliability=ReliabilityPolicy.BEST_EFFORT,
+    durability=DurabilityPolicy.VOLATILE,
+)
+IMU = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=20,
+    reliability=ReliabilityPolicy.BEST_EFFORT,
+    durability=DurabilityPolicy.VOLATILE,
+)
+# Its odometry and its temperatures.
+SENSOR = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=10,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.VOLATILE,
+)
+# What it is told to do, and that it has done it.
+CONTROL = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.VOLATILE,
+)
+
 # /clock, as rclpy's own time source subscribes to it.
 CLOCK = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,

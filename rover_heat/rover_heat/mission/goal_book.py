@@ -62,7 +62,7 @@ class GoalBook:
 
     @property
     def visited(self) -> Points:
-        """(n, 2) [m] Frontiers that were looked at."""
+        """(n, 2) [m] Frontiers that were observed."""
         return np.array(self._visited, float).reshape(-1, 2)
 
     def known(self) -> Points:

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from rover_navigation.costmap import Costmap
 
+# Weights. Nearness to walls counts so much that corners of lanes of 0.6 m are passed at 0.2 m and
+# more, which took no more time over three mazes than to pass them at 0.16 m.
 COLLISION = 200.0
-CLEARANCE, PATH, PROGRESS, GOAL, BACKWARD, TURN, HEADING = 2.0, 8.0, 25.0, 6.0, 8.0, 0.05, 0.5
+CLEARANCE, PATH, PROGRESS, GOAL, BACKWARD, TURN, HEADING = 8.0, 8.0, 25.0, 6.0, 8.0, 0.05, 0.5
 EVERY = 8  # steps between those whose distance from the path counts
 
 

@@ -18,7 +18,7 @@ PERIOD = 0.05  # [s] of a step, and between two calls
 HELD = 4  # steps that one drawn velocity is held: longer ones reach farther than white noise
 LINEAR_SIGMA, ANGULAR_SIGMA = 0.08, 0.9  # [m/s], [rad/s] of the draws
 BACKWARD = -0.06  # [m/s] fastest
-TEMPERATURE = 0.3
+TEMPERATURE = 0.15
 ACCELERATION, TURN_ACCELERATION = 1.0, 8.0  # [m/s^2], [rad/s^2] of what is told to the wheels
 
 

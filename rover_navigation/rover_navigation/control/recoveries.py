@@ -60,7 +60,9 @@ class Recoveries:
 
     def twist(self, time: float, may_back: bool) -> Twist | None:
         """The velocity of the active one; None when it is over."""
-        if self.active is None or time >= self._until:
+        if self.active is None:
+            return None
+        if time >= self._until:
             self.active, self._watching = None, False
             return None
         if self.active is Recovery.TURN:

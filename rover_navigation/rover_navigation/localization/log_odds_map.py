@@ -9,40 +9,44 @@ from numpy.typing import NDArray
 from rover_common.grid import GridGeometry
 from rover_common.map_encoding import EDGE, UNKNOWN
 from rover_common.types import GridMap
+from rover_navigation.localization.growing_grid import GrowingGrid
 
 # Sensor model, as log-odds: a ray that ends in a cell tells more than one that passes it, for the
 # lidar's walls are thinner than a cell and a ray may pass beside them in the same cell.
 HIT, PASS = 0.9, -0.4
 LEAST, MOST = -2.0, 3.5  # so that a cell can change its mind within a few scans
 BEHIND = 2  # [cells] behind a wall that are cleared with it
-GROWTH = 20  # [cells] at once
 SAMPLES = 1.5  # per cell along a ray
 
 
 class LogOddsMap:
-    """Cells lie on multiples of the resolution in the map frame, however the grid grows."""
+    """What rays say of each cell, together."""
 
     def __init__(self, resolution: float) -> None:
-        self.geometry = GridGeometry(resolution, 0, 0)
-        self._log_odds = np.zeros((0, 0), np.float32)
-        self._known = np.zeros((0, 0), bool)
+        """resolution [m]"""
+        self._grid = GrowingGrid(resolution, 2)  # log-odds; 1 where known
+
+    @property
+    def geometry(self) -> GridGeometry:
+        """Where its cells are."""
+        return self._grid.geometry
 
     def integrate(self, ends: NDArray[np.float64], origins: NDArray[np.float64]) -> None:
         """Rays (n, 2) [m] in the map frame, each from its origin to the wall at its end."""
         if len(ends) == 0:
             return
-        self._grow_to(np.concatenate([ends, origins]))
-        hit = np.zeros(self._known.shape, bool)
+        self._grid.grow_to(np.concatenate([ends, origins]))
+        log_odds, known = self._grid.layers
+        hit, passed = np.zeros(known.shape, bool), np.zeros(known.shape, bool)
         hit[self.geometry.cell_of(ends[:, 0], ends[:, 1])] = True
-        passed = np.zeros_like(hit)
         passed[self._cells_along(ends, origins)] = True
-        passed |= _closed(passed) & ~self._known
+        passed |= _closed(passed) & (known == 0.0)
         passed |= self._just_behind(ends, origins) & self.walls
         passed &= ~hit
-        self._log_odds[hit] += HIT
-        self._log_odds[passed] += PASS
-        np.clip(self._log_odds, LEAST, MOST, out=self._log_odds)
-        self._known |= hit | passed
+        log_odds[hit] += HIT
+        log_odds[passed] += PASS
+        np.clip(log_odds, LEAST, MOST, out=log_odds)
+        known[hit | passed] = 1.0
 
     def _cells_along(
         self, ends: NDArray[np.float64], origins: NDArray[np.float64]
@@ -68,49 +72,25 @@ class LogOddsMap:
         points = ends + np.arange(1, BEHIND + 1)[:, None, None] * step
         row, col = self.geometry.cell_of(points[:, :, 0], points[:, :, 1])
         inside = self.geometry.contains(row, col)
-        behind = np.zeros(self._known.shape, bool)
+        behind = np.zeros(self.known.shape, bool)
         behind[row[inside], col[inside]] = True
         return behind
-
-    def _grow_to(self, points: NDArray[np.float64]) -> None:
-        """Make all points [m] lie inside."""
-        old = self.geometry
-        if old.rows == 0:
-            row, col = (int(i) for i in old.cell_of(*points[0]))
-            x, y = (old.origin_x + i * old.resolution for i in (col, row))
-            old = GridGeometry(old.resolution, 0, 0, x, y)
-        rows, cols = old.cell_of(points[:, 0], points[:, 1])
-        pads = [
-            (_growth(-int(at.min())), _growth(int(at.max()) + 1 - size))
-            for at, size in ((rows, old.rows), (cols, old.cols))
-        ]
-        (down, up), (left, right) = pads
-        self.geometry = GridGeometry(
-            old.resolution,
-            old.rows + down + up,
-            old.cols + left + right,
-            old.origin_x - left * old.resolution,
-            old.origin_y - down * old.resolution,
-        )
-        if (down, up, left, right) != (0, 0, 0, 0):
-            self._log_odds = np.pad(self._log_odds, pads)
-            self._known = np.pad(self._known, pads)
 
     @property
     def walls(self) -> NDArray[np.bool_]:
         """(rows, cols) cells that rather hold a wall than not."""
-        return np.asarray(self._log_odds > 0.0)
+        return np.asarray(self._grid.layers[0] > 0.0)
 
     @property
     def known(self) -> NDArray[np.bool_]:
         """(rows, cols) cells that a ray has passed or hit."""
-        return self._known
+        return np.asarray(self._grid.layers[1] > 0.0)
 
     def grid(self) -> GridMap:
         """As nav_msgs/OccupancyGrid has it."""
-        percent = np.rint(100.0 / (1.0 + np.exp(-self._log_odds))).astype(np.int8)
+        percent = np.rint(100.0 / (1.0 + np.exp(-self._grid.layers[0]))).astype(np.int8)
         percent[percent == EDGE] = EDGE - 1  # a value that means something else to a costmap
-        cells = np.where(self._known, percent, np.int8(UNKNOWN))
+        cells = np.where(self.known, percent, np.int8(UNKNOWN))
         geometry = self.geometry
         return GridMap(geometry.resolution, geometry.origin_x, geometry.origin_y, cells)
 
@@ -119,8 +99,3 @@ def _closed(passed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """With the single cells that lie between passed ones: far off, rays are sparser than cells."""
     square = np.ones((3, 3), np.uint8)
     return np.asarray(cv2.morphologyEx(passed.astype(np.uint8), cv2.MORPH_CLOSE, square) > 0)
-
-
-def _growth(missing: int) -> int:
-    """Cells to add where so many are missing."""
-    return -(-missing // GROWTH) * GROWTH if missing > 0 else 0

@@ -1,7 +1,6 @@
-"""The pose at which a scan lies best on the walls of a map: Gauss-Newton on its distance field.
+"""The pose at which a scan lies best on the walls of a map: Gauss-Newton, point to line.
 
-The residual of a point is its distance from the nearest wall, as in Hector SLAM's and likelihood
-field models; the pose that the odometry predicts is one more measurement.
+The pose that the odometry predicts is one more measurement.
 """
 
 from __future__ import annotations
@@ -12,15 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, wrap_angle
-from rover_navigation.localization.distance_field import DistanceField
 from rover_navigation.localization.scan_points import transformed
+from rover_navigation.localization.wall_lines import LineField, variance
 
-POINT_SIGMA = 0.03  # [m] of a point from the middle of its wall's cells
-# Neighbouring rays share the error of the cells that they hit, so that they count for fewer.
+# Neighbouring rays share the error of the line that they hit, so that they count for fewer.
 INDEPENDENT_SHARE = 0.2
 # [m] beyond which a point counts less and less, and soon not at all (Geman and McClure): what comes
-# into sight for the first time lies at no wall of the map, and would draw the scan to the nearest.
-KERNEL = 0.08
+# into sight for the first time lies on no line of the map, and would draw the scan to the nearest.
+KERNEL = 0.05
 ITERATIONS = 12
 CONVERGED = 2e-4  # [m], [rad]
 
@@ -35,7 +33,7 @@ class Match:
 
 def match(
     points: NDArray[np.float64],
-    field: DistanceField,
+    lines: LineField,
     predicted: Pose,
     covariance: NDArray[np.float64],
 ) -> Match:
@@ -43,14 +41,14 @@ def match(
     prior = np.linalg.inv(covariance)
     start = np.array([predicted.x, predicted.y, predicted.yaw])
     state, information = start.copy(), prior
+    sure = INDEPENDENT_SHARE / variance(np.hypot(points[:, 0], points[:, 1]))
     for _ in range(ITERATIONS):
         placed = transformed(points, Pose(*state))
-        distance, slope = field.with_slope(placed)
+        distance, normal, weight = lines.residuals(placed)
         arm = placed - state[:2]  # its derivative by the yaw is arm turned by 90 degrees
-        turn = slope[:, 1] * arm[:, 0] - slope[:, 0] * arm[:, 1]
-        jacobian = np.column_stack([slope, turn])
-        weight = INDEPENDENT_SHARE / (POINT_SIGMA * (1.0 + (distance / KERNEL) ** 2)) ** 2
-        weighted = jacobian.T * weight
+        turn = normal[:, 1] * arm[:, 0] - normal[:, 0] * arm[:, 1]
+        jacobian = np.column_stack([normal, turn])
+        weighted = jacobian.T * (sure * weight / (1.0 + (distance / KERNEL) ** 2) ** 2)
         information = prior + weighted @ jacobian
         step = np.linalg.solve(information, prior @ (start - state) - weighted @ distance)
         state += step

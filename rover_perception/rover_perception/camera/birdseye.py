@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,10 +16,9 @@ OBSTACLE = (255, 0, 0)
 ROCK = (0, 255, 0)
 NAVIGABLE = (0, 0, 255)
 
-# Centres of the pixels [m] in the level frame: ahead is up, left is left.
-AHEAD = ((ROWS - np.arange(ROWS) - 0.5) * CELL)[:, None]
-LEFT = ((COLS / 2 - np.arange(COLS) - 0.5) * CELL)[None, :]
-DISTANCE = np.hypot(AHEAD, LEFT)
+COLORS = np.array([(0, 0, 0), OBSTACLE, NAVIGABLE, ROCK], np.uint8)
+# [rad] to either side, beyond which nothing is drawn: the camera sees 54 degrees, some more tilted.
+WIDEST = math.radians(60.0)
 
 
 def birdseye_image(segmentation: Segmentation, max_range: float) -> NDArray[np.uint8]:
@@ -28,23 +30,33 @@ def birdseye_image(segmentation: Segmentation, max_range: float) -> NDArray[np.u
     """
     columns = segmentation.columns
     height, width = segmentation.rock_mask.shape
-    u, v, depth = segmentation.projection.pixels(AHEAD, LEFT)
+    pixel, ahead, left = _places(max_range)
+    u, v, depth = segmentation.projection.pixels(ahead, left)
     seen = (depth > 0) & (u >= 0) & (u < width) & (v >= 0) & (v < height)
-    seen &= max_range >= DISTANCE
-    col, row = u[seen].astype(np.intp), v[seen].astype(np.intp)
-    whole = np.zeros((ROWS, COLS, 3), np.uint8)
-    navigable = v[seen] > columns.reach[col]
+    col, row, v = u[seen].astype(np.intp), v[seen].astype(np.intp), v[seen]
+    picture = np.zeros((ROWS * COLS, 3), np.uint8)
     rock = segmentation.rock_mask[row, col] > 0
-    whole[seen] = colored(navigable, columns.blocked[col], rock)
-    return whole
+    picture[pixel[seen]] = colored(v > columns.reach[col], columns.blocked[col], rock)
+    return picture.reshape(ROWS, COLS, 3)
 
 
 def colored(
     navigable: NDArray[np.bool_], obstacle: NDArray[np.bool_], rock: NDArray[np.bool_]
 ) -> NDArray[np.uint8]:
     """Colours (..., 3) RGB of the pixels (...): rock before navigable before obstacle."""
-    picture = np.zeros((*navigable.shape, 3), np.uint8)
-    picture[obstacle] = OBSTACLE
-    picture[navigable] = NAVIGABLE
-    picture[rock] = ROCK
-    return picture
+    shown = obstacle.astype(np.uint8)
+    shown[navigable] = 2
+    shown[rock] = 3
+    return COLORS[shown]
+
+
+@cache
+def _places(max_range: float) -> tuple[NDArray[np.intp], NDArray[np.float32], NDArray[np.float32]]:
+    """Pixels (n,) that may be in view, counted by rows, and their places ahead and left (n,) [m].
+
+    In the level frame: ahead is up, left is left.
+    """
+    row, col = np.indices((ROWS, COLS), np.float32)
+    ahead, left = (ROWS - row - 0.5) * CELL, (COLS / 2 - col - 0.5) * CELL
+    near = (np.hypot(ahead, left) <= max_range) & (np.abs(np.arctan2(left, ahead)) < WIDEST)
+    return np.flatnonzero(near), ahead[near], left[near]

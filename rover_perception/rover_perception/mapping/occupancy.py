@@ -6,16 +6,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.map_encoding import EDGE, UNKNOWN
+from rover_common.map_encoding import EDGE, FREE_SHARE, UNKNOWN
 from rover_common.types import GridMap
 from rover_perception.mapping.evidence import EvidenceGrid
 from rover_perception.mapping.region import Region
 
 ENOUGH = 0.5  # certain observations; with less, a cell is more likely unobserved than observed
-# Navigable cells of the simulator's map lie about 0.4 m inside the flat floor, and sand looks like
-# ground up to 0.1 to 0.3 m from the floor's edge: a navigable cell is free over more than half of
-# its area. The value between half and all of it was selected on generated canyons.
-FREE_SHARE = 0.65
 
 Masks = tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]  # free, blocked, edge
 

@@ -27,8 +27,11 @@ def parse_number(text: Any) -> float:
     return value
 
 
-def check_base64(text: Any) -> None:
-    """Raises TypeError for what is no string, ValueError for what is no base64."""
+def parse_base64(text: Any) -> bytes:
+    """What a string encodes.
+
+    Raises TypeError for what is no string, ValueError for what is no base64.
+    """
     if not isinstance(text, str):
         raise TypeError(f"{text!r:.40} is not a string")
-    base64.b64decode("".join(text.split()), validate=True)
+    return base64.b64decode("".join(text.split()), validate=True)

@@ -26,19 +26,20 @@ def format_telemetry(
     samples: Samples,
     image: bytes,
     sim_time: float | None = None,
+    shows_insets: bool = False,
     separator: str = ";",
     decimal: str = ".",
 ) -> dict[str, str]:
     """The object of one telemetry event.
 
     Takes SI and REP-103: [m/s], [rad], samples as (x, y) [m], and a JPEG file. `decimal` is the
-    mark of the machine's locale; `sim_time` [s] is this project's only addition.
+    mark of the machine's locale; `sim_time` [s] and `shows_insets` are this project's additions.
     """
 
     def number(value: float, digits: int = 4) -> str:
         return _marked(_fixed(value, digits), decimal)
 
-    telemetry = {
+    return {
         "steering_angle": number(math.degrees(steering_angle)),
         "throttle": number(throttle),
         "brake": number(brake),
@@ -53,11 +54,18 @@ def format_telemetry(
         "samples_x": separator.join(number(x, 2) for x, _ in samples),
         "samples_y": separator.join(number(y, 2) for _, y in samples),
         "image": base64.b64encode(image).decode("ascii"),
+        **_additions(sim_time, shows_insets, decimal),
     }
+
+
+def _additions(sim_time: float | None, shows_insets: bool, decimal: str) -> dict[str, str]:
+    """What the original does not send; without groups of thousands: plain for any reader."""
+    additions = {}
     if sim_time is not None:
-        # Not the original's key, so without groups of thousands: a plain number for any reader.
-        telemetry["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
-    return telemetry
+        additions["sim_time"] = f"{sim_time:.4f}".replace(".", decimal)
+    if shows_insets:
+        additions["shows_insets"] = "1"
+    return additions
 
 
 def _marked(text: str, decimal: str) -> str:

@@ -131,7 +131,7 @@ def _run(
     simulation = Simulation(world, options.seed, frame_steps_of(fps))
     config = strategy.config()
     frames, plans = len(costs.frames.laps), len(costs.plans.laps)
-    loop = Loop(simulation, core=timed_core(config, costs))
+    loop = Loop(simulation, None, strategy.perception(), core=timed_core(config, costs))
     try:
         end = loop.run(START_TIME + time_limit, lambda _: costs.planned.wait())
     finally:

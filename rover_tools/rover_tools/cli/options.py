@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from rover_common.command_line import Whole
 from rover_common.errors import RoverError
 from rover_simulator.options import FILE
 
@@ -45,6 +46,16 @@ no_record_option = click.option(
 open_option = click.option(
     "--open", "open_page", is_flag=True, help="Show the live page in a browser."
 )
+
+workers_option = click.option(
+    "--workers", type=Whole(1, 10_000), metavar="N",
+    help="Processes on this machine.  [default: one per core]",
+)  # fmt: skip
+scheduler_option = click.option(
+    "--scheduler", metavar="ADDRESS",
+    help="A Dask scheduler that runs already, as tcp://host:8786, instead of processes on this "
+    "machine.",
+)  # fmt: skip
 
 
 class SeedsType(click.ParamType):

@@ -115,6 +115,7 @@ class Loop:
             scan=_scan_through_message(seen.scan),
             rocks=seen.rocks,
             map_stamp=seen.map_stamp,
+            rock=seen.rock,
         )
         decision = self.core.step(self.frame)
         if seen.map_stamp == stamp:

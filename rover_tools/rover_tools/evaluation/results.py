@@ -16,7 +16,7 @@ from rover_common.ground_truth import load_truth
 from rover_common.map_encoding import navigable_cells
 from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.map_files import draw_map, save_map_server_pair
-from rover_tools.evaluation.scoring import score_map, score_rocks
+from rover_tools.evaluation.scoring import score_map, score_places
 
 Result = dict[str, Any]
 
@@ -65,7 +65,7 @@ def score(grid: GridMap | None, rocks: tuple[RockTrack, ...], truth: Truth) -> R
         result["f1"] = round(scores.f1, 2)
     if truth.samples is not None:
         found = np.array([(rock.x, rock.y) for rock in rocks], float).reshape(-1, 2)
-        located = score_rocks(found, truth.samples)
+        located = score_places(found, truth.samples)
         result["rocks_located"] = located.located
         result["rocks_missed"] = located.missed
         result["rocks_false"] = located.false

@@ -1,4 +1,4 @@
-"""How a map and rock positions are scored against the truth."""
+"""How a map and found places are scored against the truth."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class MapScore:
 
 
 @dataclass(frozen=True)
-class RockScore:
-    located: int  # true samples with a found rock within ROCK_RADIUS
+class PlaceScore:
+    located: int  # true places with a found one within the radius
     missed: int
-    false: int  # found rocks that belong to no true sample
+    false: int  # found places that belong to no true one
 
 
 def score_map(navigable: NDArray[np.bool_], truth: NDArray[np.bool_]) -> MapScore:
@@ -37,12 +37,14 @@ def score_map(navigable: NDArray[np.bool_], truth: NDArray[np.bool_]) -> MapScor
     return MapScore(mapped, fidelity, f1)
 
 
-def score_rocks(found: NDArray[np.float64], true: NDArray[np.float64]) -> RockScore:
-    """Match found rocks (n, 2) [m] one to one with true samples (m, 2) [m]."""
+def score_places(
+    found: NDArray[np.float64], true: NDArray[np.float64], radius: float = ROCK_RADIUS
+) -> PlaceScore:
+    """Match found places (n, 2) [m] one to one with true ones (m, 2) [m]; radius [m]."""
     if len(found) == 0 or len(true) == 0:
-        return RockScore(0, len(true), len(found))
+        return PlaceScore(0, len(true), len(found))
     distance = cdist(found, true)
     # As many pairs within reach as there can be: one out of reach costs more than all the others.
-    pairs = linear_sum_assignment(np.where(distance <= ROCK_RADIUS, distance, 1e6))
-    located = int(np.count_nonzero(distance[pairs] <= ROCK_RADIUS))
-    return RockScore(located, len(true) - located, len(found) - located)
+    pairs = linear_sum_assignment(np.where(distance <= radius, distance, 1e6))
+    located = int(np.count_nonzero(distance[pairs] <= radius))
+    return PlaceScore(located, len(true) - located, len(found) - located)

@@ -29,6 +29,7 @@ class Moment:
     samples: int  # collected so far
     home_distance: float  # [m] straight line to the start
     distance: float  # [m] driven
+    explored: float  # 0..1 of the reachable ground, as the rover estimates it
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,7 @@ class TrackPoint:
     samples: int  # collected so far
     home_distance: float  # [m]
     distance: float  # [m] driven
+    explored: float  # [%] of the reachable ground, as the rover estimates it
     mapped_area: float | None  # [m^2] navigable ground on the map
     percent_mapped: float | None  # [%] of the true ground, where a truth is known
     fidelity: float | None  # [%]
@@ -157,6 +159,7 @@ def _point_of(moment: Moment, tilt: float, grid: GridMap | None, truth: Truth) -
         samples=moment.samples,
         home_distance=round(moment.home_distance, 2),
         distance=round(moment.distance, 2),
+        explored=round(100.0 * moment.explored, 1),
         mapped_area=area,
         percent_mapped=mapped,
         fidelity=fidelity,

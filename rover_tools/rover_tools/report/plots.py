@@ -52,7 +52,7 @@ class Span:
 
 
 def plots_of(track: Sequence[TrackPoint]) -> list[Plot]:
-    """Speed, tilt, what is mapped, samples and the distance home; none without a track."""
+    """Speed, tilt, what is mapped and explored, samples, distance home; none without a track."""
     if not track:
         return []
     times = [point.time for point in track]
@@ -69,6 +69,9 @@ def plots_of(track: Sequence[TrackPoint]) -> list[Plot]:
         plots.append(plot("Mapped, fidelity [%]", 1, mapped=mapped, fidelity=fidelity))
     elif any(point.mapped_area is not None for point in track):
         plots.append(plot("Mapped ground [m²]", 0, mapped=[p.mapped_area for p in track]))
+    plots.append(
+        plot("Explored, as the rover estimates [%]", 1, explored=[p.explored for p in track])
+    )
     plots.append(plot("Samples on board", 0, samples=[float(p.samples) for p in track]))
     plots.append(plot("Distance home [m]", 1, home=[p.home_distance for p in track]))
     return plots

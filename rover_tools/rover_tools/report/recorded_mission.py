@@ -184,6 +184,7 @@ class _Reader:
             state.samples_collected,
             state.home_distance,
             state.distance,
+            state.explored,
         )
         self._builder.add(moment, lambda: _grid_in(self._newest))
         self._moment = moment

@@ -13,7 +13,7 @@ from rover_recorder.errors import RecordingError
 from rover_recorder.reader import FOLDER
 from rover_simulator.options import FPS
 from rover_simulator.simulation import START_TIME
-from rover_simulator.world.world import World
+from rover_simulator.world.world import MAP_NAME, World
 from rover_tools.evaluation.mission_result import MissionRun, mission_result, truth_of
 from rover_tools.evaluation.results import Result, write_results
 from rover_tools.evaluation.strategy import Strategy
@@ -56,7 +56,7 @@ def run_mission(
     """
     world.save(folder / "world")
     strategy = strategy or Strategy.of_parameters(parameters or default_parameters())
-    overrides = OVERRIDES | {"decision_node": strategy.parameters()}
+    overrides = OVERRIDES | strategy.parameters(folder.resolve() / "world" / MAP_NAME)
     start = time.monotonic()
     with running_graph(folder, overrides, parameters) as run:
         if page:

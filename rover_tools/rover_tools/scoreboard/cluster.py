@@ -7,13 +7,13 @@ import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
+from typing import TypeVar
 
 import dask
 from distributed import Client, Future, LocalCluster, wait
 
 from rover_tools.scoreboard.errors import ScoreboardError
-from rover_tools.scoreboard.job import Job
-from rover_tools.scoreboard.mission_run import CompletedMission, run_job
+from rover_tools.scoreboard.missions import CompletedMission
 
 CONNECT_SECONDS = 10.0  # [s] for the scheduler to answer
 TICK_SECONDS = 1.0  # [s] between two calls while all missions go on
@@ -24,7 +24,7 @@ ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
 MEMORY = {"MALLOC_TRIM_THRESHOLD_": 1 << 30, "MALLOC_MMAP_THRESHOLD_": 1 << 25}  # [bytes]
 
 Outcome = CompletedMission | BaseException
-RunJob = Callable[[Job], CompletedMission]
+J = TypeVar("J")  # a kind of MissionJob
 
 
 @contextmanager
@@ -67,11 +67,11 @@ def cluster(
 
 def run_all(
     client: Client,
-    jobs: Sequence[Job],
-    run: RunJob = run_job,
+    jobs: Sequence[J],
+    run: Callable[[J], CompletedMission],
     on_start: Callable[[str], object] = lambda _: None,
     while_waiting: Callable[[], object] = lambda: None,
-) -> Iterator[tuple[Job, Outcome]]:
+) -> Iterator[tuple[J, Outcome]]:
     """Run all jobs; each is yielded as soon as it is over, with the error if it raised one.
 
     `on_start` is called with a sentence when the first job runs, `while_waiting` every second.

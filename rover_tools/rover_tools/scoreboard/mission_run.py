@@ -1,17 +1,17 @@
-"""Run one mission of the scoreboard, on the machine that this is called on."""
+"""Run one of the rover's missions, on the machine that this is called on."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 
 from rover_decision.types import Decision
 from rover_simulator.run import frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
-from rover_simulator.world.world import World
+from rover_simulator.world.world import MAP_NAME, World
 from rover_tools.evaluation.closed_loop import Loop, LoopResult
 from rover_tools.evaluation.mission_result import (
     RESULT_KEYS,
@@ -26,18 +26,9 @@ from rover_tools.evaluation.strategy import Strategy
 from rover_tools.report.mission_log import LogBuilder, Moment, track_csv
 from rover_tools.report.mission_page import mission_map, mission_page
 from rover_tools.scoreboard.job import Job
+from rover_tools.scoreboard.missions import CompletedMission, Files
 
 ROW_KEYS = (*RESULT_KEYS, "oracle_time")
-
-Files = Mapping[str, bytes]  # contents by suffix
-
-
-@dataclass(frozen=True)
-class CompletedMission:
-    """A mission that ended, with what it leaves to look at."""
-
-    result: Result
-    files: Files  # its map as .svg, its track as .csv, its report as .html
 
 
 def run_job(job: Job) -> CompletedMission:
@@ -46,7 +37,7 @@ def run_job(job: Job) -> CompletedMission:
     start = time.monotonic()
     world = job.world()
     simulation = Simulation(world, job.seed, frame_steps_of(job.fps))
-    loop = Loop(simulation, Strategy.parse(job.strategy).config())
+    loop = _loop(simulation, world, Strategy.parse(job.strategy))
     log = LogBuilder(truth_of(world))
     try:
         end = loop.run(START_TIME + job.time_limit, lambda decision: _add(log, loop, decision))
@@ -74,6 +65,13 @@ def failed_row(job: Job, error: BaseException) -> Result:
     return failed_result(job.world_name, job.strategy, job.seed, why) | {"oracle_time": None}
 
 
+def _loop(simulation: Simulation, world: World, strategy: Strategy) -> Loop:
+    with TemporaryDirectory() as folder:  # the truth is a parameter of decision: a file
+        world.save(Path(folder))
+        config = strategy.config(Path(folder) / MAP_NAME)
+        return Loop(simulation, config, strategy.perception())
+
+
 def _add(log: LogBuilder, loop: Loop, decision: Decision) -> None:
     frame, progress = loop.frame, decision.progress
     assert frame is not None
@@ -86,6 +84,7 @@ def _add(log: LogBuilder, loop: Loop, decision: Decision) -> None:
         progress.samples_collected,
         progress.home_distance,
         progress.distance,
+        progress.explored,
     )
     log.add(moment, loop.perception.world_map)
 

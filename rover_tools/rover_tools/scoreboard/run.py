@@ -9,16 +9,14 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from rover_tools.evaluation.results import Result
 from rover_tools.output import note, print_result
 from rover_tools.progress import Progress
+from rover_tools.scoreboard.board import Board, as_text, summaries
 from rover_tools.scoreboard.cluster import Outcome, cluster, run_all
 from rover_tools.scoreboard.errors import ScoreboardError
-from rover_tools.scoreboard.job import Job
-from rover_tools.scoreboard.mission_run import CompletedMission, failed_row
+from rover_tools.scoreboard.missions import CompletedMission, MissionJob
 from rover_tools.scoreboard.report import write_report
 from rover_tools.scoreboard.store import Store
-from rover_tools.scoreboard.table import as_text, summaries
 
 
 @dataclass(frozen=True)
@@ -29,22 +27,24 @@ class Engine:
     workers: int | None  # processes on this machine; None: one per core
 
 
-def run_scoreboard(jobs: Sequence[Job], folder: Path, engine: Engine, as_json: bool) -> None:
+def run_scoreboard(
+    jobs: Sequence[MissionJob], board: Board, folder: Path, engine: Engine, as_json: bool
+) -> None:
     """Run what the folder lacks, write its report, and print the results of these jobs.
 
     Raises ScoreboardError when missions failed, or when the folder cannot take these jobs.
     """
-    store = Store(folder)
+    store = Store(folder, board.shared)
     missing = store.missing(jobs)
     note(f"{len(jobs)} missions, {len(jobs) - len(missing)} already completed; results in {folder}")
     try:
         if missing:
-            _run(engine, store, missing, len(jobs))
+            _run(board, engine, store, missing, len(jobs))
     except KeyboardInterrupt:
         note(f"to continue, run it again with --out {folder}")
         raise
     finally:
-        table = _write_report(store)
+        table = _write_report(board, store)
     names = {job.name for job in jobs}
     entries = [entry for entry in store.entries() if entry.name in names]
     print_result([entry.result for entry in entries], as_json, table)
@@ -55,7 +55,9 @@ def run_scoreboard(jobs: Sequence[Job], folder: Path, engine: Engine, as_json: b
         )
 
 
-def _run(engine: Engine, store: Store, missing: Sequence[Job], total: int) -> None:
+def _run(
+    board: Board, engine: Engine, store: Store, missing: Sequence[MissionJob], total: int
+) -> None:
     start = time.monotonic()
     with (
         cluster(engine.scheduler, engine.workers, len(missing)) as client,
@@ -67,8 +69,9 @@ def _run(engine: Engine, store: Store, missing: Sequence[Job], total: int) -> No
             progress.show(completed, f"{time.monotonic() - start:.0f} s, completed")
 
         try:
-            for job, outcome in run_all(client, missing, on_start=note, while_waiting=show):
-                _keep(store, job, outcome)
+            outcomes = run_all(client, missing, board.run, on_start=note, while_waiting=show)
+            for job, outcome in outcomes:
+                _keep(board, store, job, outcome)
                 completed += 1
                 show()
         except KeyboardInterrupt:
@@ -76,30 +79,19 @@ def _run(engine: Engine, store: Store, missing: Sequence[Job], total: int) -> No
             raise
 
 
-def _keep(store: Store, job: Job, outcome: Outcome) -> None:
+def _keep(board: Board, store: Store, job: MissionJob, outcome: Outcome) -> None:
     """Write a mission's outcome into the folder, and print a line about it."""
     if isinstance(outcome, CompletedMission):
         store.add(job, result := outcome.result, outcome.files)
     else:
-        store.add(job, result := failed_row(job, outcome), None)
+        store.add(job, result := board.failed_row(job, outcome), None)
     with tqdm.external_write_mode():
-        note(_line(result))
+        note(board.line(result))
 
 
-def _line(result: Result) -> str:
-    """One mission in one line."""
-    title = f"  {result['world']} {result['strategy']}: {result['reason']}"
-    if result["time"] is None:
-        return title
-    return (
-        f"{title} after {result['time']:.0f} s, {result['samples_collected']} of "
-        f"{result['samples_total']} samples, {result['percent_mapped']:.1f} % mapped"
-    )
-
-
-def _write_report(store: Store) -> str:
+def _write_report(board: Board, store: Store) -> str:
     """Report all missions that the folder holds; returns the table as text."""
     entries = store.entries()
-    rows = summaries(entries)
-    write_report(store.folder, entries, rows)
-    return as_text(rows)
+    rows = summaries(board, entries)
+    write_report(store.folder, board, entries, rows)
+    return as_text(rows, board.legend)

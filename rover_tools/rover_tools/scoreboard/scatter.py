@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from matplotlib.ticker import MaxNLocator
 
 from rover_tools.report.plots import Tick
+from rover_tools.scoreboard.rover_table import has_all_samples, is_home
 from rover_tools.scoreboard.store import Entry
-from rover_tools.scoreboard.table import has_all_samples, is_home
 
 RATIOS = (1, 2, 3, 4)  # lines of so many times the oracle's time
 KINDS = 7  # strategies that differ in shape and colour
@@ -81,14 +81,14 @@ def scatter_of(entries: Sequence[Entry]) -> Scatter | None:
     ended = [entry for entry in entries if not entry.failed]
     if not ended:
         return None
-    strategies = sorted({str(entry.settings["strategy"]) for entry in ended})
+    strategies = sorted({entry.strategy for entry in ended})
     x = Axis.of([entry.result["oracle_time"] for entry in ended])
     y = Axis.of([entry.result["time"] for entry in ended])
     points = tuple(
         Point(
             x.at(entry.result["oracle_time"]),
             y.at(entry.result["time"]),
-            strategies.index(entry.settings["strategy"]) % KINDS,
+            strategies.index(entry.strategy) % KINDS,
             is_home(entry.result) and has_all_samples(entry.result),
             f"{entry.name}: {entry.result['time']:.0f} s",
             entry.report,

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rover_tools.evaluation.results import Result
 from rover_tools.scoreboard.errors import ScoreboardError
-from rover_tools.scoreboard.job import Job
+from rover_tools.scoreboard.missions import Files, MissionJob
 
 MISSIONS = "missions"
-SHARED_SETTINGS = ("fps", "time_limit")  # the same for all missions of one folder
 
 
 @dataclass(frozen=True)
@@ -31,6 +30,10 @@ class Entry:
         return str(self.settings["group"])
 
     @property
+    def strategy(self) -> str:
+        return str(self.settings["strategy"])
+
+    @property
     def picture(self) -> str | None:
         """Relative to the result folder."""
         return None if self.failed else f"{MISSIONS}/{self.name}.svg"
@@ -44,16 +47,18 @@ class Entry:
 class Store:
     """The completed missions; a file counts only when it is whole."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, shared: Sequence[str]) -> None:
+        """shared: settings that all missions of the folder have in common."""
         self.folder = folder
+        self._shared = shared
         (folder / MISSIONS).mkdir(parents=True, exist_ok=True)
 
     def entries(self) -> list[Entry]:
         """All missions of the folder, by group, seed and strategy; raises ScoreboardError."""
         entries = [_read(path) for path in (self.folder / MISSIONS).glob("*.json")]
-        return sorted(entries, key=lambda e: (e.group, e.settings["seed"], e.settings["strategy"]))
+        return sorted(entries, key=lambda e: (e.group, e.settings["seed"], e.strategy))
 
-    def missing(self, jobs: Iterable[Job]) -> list[Job]:
+    def missing(self, jobs: Iterable[MissionJob]) -> list[MissionJob]:
         """The jobs that have not run yet, and those that failed.
 
         Raises ScoreboardError when the folder holds missions with other settings: they are not
@@ -64,13 +69,13 @@ class Store:
         for job in jobs:
             wanted = job.settings()
             for entry in there.values():
-                keys = wanted if entry.name == job.name else SHARED_SETTINGS
+                keys = wanted if entry.name == job.name else self._shared
                 _check_same(entry, wanted, keys)
             if job.name not in there or there[job.name].failed:
                 missing.append(job)
         return missing
 
-    def add(self, job: Job, result: Result, files: Mapping[str, bytes] | None) -> None:
+    def add(self, job: MissionJob, result: Result, files: Files | None) -> None:
         """Write one mission, with its files by their suffixes; None for one that failed.
 
         The JSON file comes last, so that it marks a complete one.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
 
+from rover_common.ground_truth import load_truth
 from rover_decision.core import DecisionCore
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.explorers import SELECTIONS
@@ -18,9 +20,10 @@ SampleReturnCore = DecisionCore[Frame, Decision, Plan, Overlay]
 
 
 def make_planner(config: DecisionConfig) -> Planner:
-    """The planner that the parameters name."""
+    """The planner that the parameters name; raises TruthError for a truth that cannot be read."""
     selection = SELECTIONS.get(config.explorer, WholeTour)
-    return Planner(ROVER_SCALE, selection(ROVER_SCALE))
+    truth = load_truth(Path(config.truth)) if config.truth else None
+    return Planner(ROVER_SCALE, selection(ROVER_SCALE), truth)
 
 
 def configure(core: SampleReturnCore, config: DecisionConfig) -> None:

@@ -112,17 +112,17 @@ class MissionChart(StateChart):
 class Machine(StateMachine[State, Event]):
     """Where the mission is; also whether it heads home."""
 
-    def __init__(self) -> None:
-        super().__init__(MissionChart, State)
+    def __init__(self, chart: type[StateChart] = MissionChart) -> None:
+        super().__init__(chart, State)
 
     @property
     def heading_home(self) -> bool:
         """Whether the rover heads home, or will when what interrupted that is over."""
-        if "driving" in self.active:
+        if self.active & {"exploring", "heading_home"}:
             return "heading_home" in self.active
         return "heading_home" in self.interrupted("phase")
 
 
-def transitions() -> set[Transition[State, Event]]:
+def transitions(chart: type[StateChart] = MissionChart) -> set[Transition[State, Event]]:
     """All arrows, those of the groups and of the history taken apart."""
-    return statechart.transitions(MissionChart, Event, State)
+    return statechart.transitions(chart, Event, State)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from rover_decision.missions.sample_return.samples import Samples
 from rover_decision.missions.sample_return.tick import TickContext
@@ -15,13 +16,34 @@ HOME_RESERVE = 1.3  # of the time estimated for the home path
 HOME_EXTRA = 30.0  # [s]
 
 
+@dataclass(frozen=True)
+class Trigger:
+    """A share of the map that completes the mission, beside the samples."""
+
+    share: float = 0.0  # 0..1; 0 for none
+    all_of_it: bool = False  # both are wanted; else either will do
+
+    def reached(self, all_collected: bool, explored: float) -> bool:
+        """Whether the mission is complete; without a share, by the samples alone."""
+        if self.share == 0.0:
+            return all_collected
+        mapped = explored >= self.share
+        return (all_collected and mapped) if self.all_of_it else (all_collected or mapped)
+
+
 class Completion:
     """Watches the goals, the samples and the time."""
 
     def __init__(
-        self, samples: Samples, goals: GoalHistory, blocked: BlockedPlaces, search_limit: float
+        self,
+        samples: Samples,
+        goals: GoalHistory,
+        blocked: BlockedPlaces,
+        search_limit: float,
+        trigger: Trigger,
     ) -> None:
         """search_limit: [s] of searching known ground for samples."""
+        self._trigger = trigger
         self._samples = samples
         self._goals = goals
         self._blocked = blocked
@@ -44,10 +66,17 @@ class Completion:
             self._retry(tick.time)
 
     def reached(self, tick: TickContext) -> bool:
-        """Whether to go home now."""
-        if tick.return_requested or self._time_is_up(tick):
+        """Whether to go home now: by the share of the map if there is one, else by the goals."""
+        if tick.return_requested or self._time_is_up(tick) or self._explored(tick):
             return True
-        return self._explored(tick)
+        return self._trigger.share > 0.0 and self._triggered(tick)
+
+    def classic(self, tick: TickContext) -> bool:
+        """The same for a solution without goals: by the samples, and a share if there is one."""
+        return tick.return_requested or tick.time_left < 0.0 or self._triggered(tick)
+
+    def _triggered(self, tick: TickContext) -> bool:
+        return self._trigger.reached(self._samples.all_collected, tick.explored)
 
     def _explored(self, tick: TickContext) -> bool:
         return tick.plan is not None and self._goals.missing >= PLANS_WITHOUT_GOAL

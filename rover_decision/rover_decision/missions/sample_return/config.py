@@ -11,8 +11,8 @@ from rover_common.config import parameter
 class DecisionConfig:
     explorer: str = parameter(
         "tour",
-        "how to explore: tour, frontier, wall_follow_a or wall_follow_b",
-        choices=("tour", "frontier", "wall_follow_a", "wall_follow_b"),
+        "how to explore: tour, frontier, classic_a or classic_b",
+        choices=("tour", "frontier", "classic_a", "classic_b"),
         settable=True,
     )
     way_home: str = parameter(
@@ -32,7 +32,7 @@ class DecisionConfig:
         maximum=10.0,
     )
     go_clearance: float = parameter(
-        2.5, "[m] free ground ahead above which a wall follower goes on", minimum=0.5, maximum=20.0
+        2.5, "[m] free ground ahead above which it goes on by sight", minimum=0.5, maximum=20.0
     )
     corridor: float = parameter(
         0.5, "[m] half width of the corridor that must be free", minimum=0.4, maximum=2.0
@@ -66,6 +66,33 @@ class DecisionConfig:
     )
     time_limit: float = parameter(
         840.0, "[s] of mission time within which to be home", minimum=10.0, maximum=36000.0
+    )
+    complete_at: float = parameter(
+        0.0,
+        "share of the map at which the mission is complete; 0 for no such share",
+        minimum=0.0,
+        maximum=1.0,
+    )
+    complete_rule: str = parameter(
+        "any",
+        "what completes the mission: any of all samples and the share of the map, or all of it",
+        choices=("any", "all"),
+    )
+    truth: str = parameter(
+        "", "picture of the true map that the share is of; empty: by the borders of the own map"
+    )
+    nav_cell: float = parameter(
+        0.25,
+        "[m] cell of nav_polar, as a classic counts them: 0.1 with perception's baseline",
+        minimum=0.01,
+        maximum=1.0,
+    )
+    turn_after_pickup: bool = parameter(False, "whether classic_b turns left after a pickup")
+    avoid_visited: float = parameter(
+        0.0,
+        "how much less visited ground counts in the bearing of classic_b; 0 for not at all",
+        minimum=0.0,
+        maximum=1.0,
     )
     plan_delay: float = parameter(
         0.16,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_decision.missions.sample_return.explorers import Explorer, SightDriver, make_explorer
+from rover_decision.missions.sample_return.explorers import PlanExplorer, SightDriver
 from rover_decision.missions.sample_return.home_paths import HomewardDriver
 from rover_navigation.actuation import Actuation
 from rover_navigation.path_tracking import PathTracker
@@ -13,7 +13,8 @@ from rover_navigation.scale import Scale
 class Drivers:
     """None of them remembers anything, so that each can be replaced at any frame."""
 
-    explorer: Explorer
+    tracker: PathTracker
+    explorer: PlanExplorer
     sight: SightDriver
     homeward: HomewardDriver
 
@@ -24,9 +25,9 @@ class Drivers:
 
     def configure(self, config: DecisionConfig) -> None:
         """Make all of them as the parameters say."""
-        tracker = PathTracker(self._actuation, self._scale, config.top_speed)
+        self.tracker = PathTracker(self._actuation, self._scale, config.top_speed)
         self.sight = SightDriver(self._actuation, self._scale, config)
-        self.explorer = make_explorer(config, tracker, self.sight)
+        self.explorer = PlanExplorer(self.tracker, self.sight, config)
         self.homeward = HomewardDriver(
-            tracker, self.sight, config.stop_clearance, config.go_clearance
+            self.tracker, self.sight, config.stop_clearance, config.go_clearance
         )

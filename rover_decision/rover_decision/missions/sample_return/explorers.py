@@ -1,20 +1,16 @@
-"""How to explore: along plans, or along walls. One object, chosen once."""
+"""How to explore along plans, and how to drive by sight where there is none."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Protocol
+
+import numpy as np
 
 from rover_common.geometry import bearing_to
-from rover_common.types import Command, PolarArray
+from rover_common.types import Command
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.tick import TickContext
-from rover_decision.missions.sample_return.wall_following import (
-    mean_bearing,
-    wall_follow_a,
-    wall_follow_b,
-)
 from rover_decision.types import Action
 from rover_navigation.actuation import Actuation, approach_speed
 from rover_navigation.local_clearance import LocalClearance
@@ -29,28 +25,6 @@ CLEARANCE_TO_GO = 1.2  # of the clearance below which it stops: not to stop agai
 SCAN_TURN = math.radians(60.0)  # out of sight, so that the turn goes on
 SPEED_MIN = 0.3  # [m/s] of driving by sight
 ALIGN_SECONDS, SCAN_SECONDS = 0.5, 1.0  # [s] in STOP, at least
-
-
-class Explorer(Protocol):
-    """A strategy to see everything."""
-
-    needs_plan: bool  # whether it stands still without one
-    samples_suffice: bool  # whether it is done when all samples are collected
-
-    def wanted_bearing(self, tick: TickContext) -> float:
-        """Where it leads [rad]."""
-
-    def turns_in_place(self, tick: TickContext) -> bool:
-        """Whether the rover is where its goal is observed from, and turns there in place."""
-
-    def drive(self, tick: TickContext) -> Action:
-        """Explore on."""
-
-    def leave_stop(self, tick: TickContext, side: int) -> Action:
-        """Turn to where it goes on, or to a side (+1 left) until ground is free; it stands."""
-
-    def is_clear(self, tick: TickContext) -> bool:
-        """Whether it can drive on from a stop."""
 
 
 class SightDriver:
@@ -68,20 +42,14 @@ class SightDriver:
         speed = min(self._top_speed, approach_speed(ahead - self._stop_margin))
         return self.actuation.drive(tick.speed, max(SPEED_MIN, speed), bearing)
 
-    def near(self, tick: TickContext, wanted: Callable[[PolarArray], float]) -> Command | None:
-        """Towards the free bearing nearest to the wanted one; None where no ground is seen."""
+    def leave_circle(self, tick: TickContext) -> Action:
+        """Towards the free bearing nearest to the mean of the navigable ones."""
         nav = tick.frame.nav
         if len(nav.bearings) == 0:
-            return None
-        bearing = tick.local.best_bearing(wanted(nav), self._go_clearance)
-        return self.towards(tick, bearing)
-
-    def leave_circle(self, tick: TickContext) -> Action:
-        """Where the most ground is, whatever the explorer wants."""
-        command = self.near(tick, mean_bearing)
-        if command is None:
             return self.actuation.stop(), "sees no ground"
-        return command, "leaves the circle"
+        mean = float(nav.bearings.astype(np.float64).mean())
+        bearing = tick.local.best_bearing(mean, self._go_clearance)
+        return self.towards(tick, bearing), "leaves the circle"
 
     def turn_to_open(self, tick: TickContext, side: int) -> Action:
         """Turn to the nearest free corridor by sight, to the side where none is seen."""
@@ -98,9 +66,6 @@ class SightDriver:
 class PlanExplorer:
     """Drives along the plans."""
 
-    needs_plan = True
-    samples_suffice = False
-
     def __init__(self, tracker: PathTracker, sight: SightDriver, config: DecisionConfig) -> None:
         self._tracker = tracker
         self._sight = sight
@@ -108,6 +73,7 @@ class PlanExplorer:
         self._clearance_to_go = CLEARANCE_TO_GO * config.stop_clearance
 
     def wanted_bearing(self, tick: TickContext) -> float:
+        """Where it leads [rad]."""
         plan = tick.plan
         if plan is None or len(plan.path) == 0:
             return 0.0
@@ -116,12 +82,14 @@ class PlanExplorer:
         return self._tracker.bearing(tick.pose, plan.path)
 
     def turns_in_place(self, tick: TickContext) -> bool:
+        """Whether the rover is where its goal is observed from, and turns there in place."""
         plan = tick.plan
         if plan is None or plan.goal is None or plan.goal.kind is GoalKind.TARGET:
             return False
         return len(plan.path) > 0 and self._tracker.at_end(tick.pose, plan.path)
 
     def drive(self, tick: TickContext) -> Action:
+        """Explore on."""
         plan = tick.plan
         if plan is None:
             return self._actuation.stop(), "waits for the first plan"
@@ -136,6 +104,7 @@ class PlanExplorer:
         return command, f"drives to {what}"
 
     def leave_stop(self, tick: TickContext, side: int) -> Action:
+        """Turn to where it goes on, or to a side (+1 left) until ground is free; it stands."""
         if tick.plan is None:
             return self._sight.turn_to_open(tick, side)
         if len(tick.plan.path) == 0:
@@ -147,6 +116,7 @@ class PlanExplorer:
         return self._actuation.turn_in_place(tick.speed, bearing), "turns to the new path"
 
     def is_clear(self, tick: TickContext) -> bool:
+        """Whether it can drive on from a stop."""
         plan = tick.plan
         if plan is None:
             return self._sight.is_open(tick)
@@ -161,42 +131,4 @@ class PlanExplorer:
         return local.clearance(bearing) > self._clearance_to_go
 
 
-class WallFollower:
-    """Drives by sight, along a bearing that keeps to a wall."""
-
-    needs_plan = False
-    samples_suffice = True
-
-    def __init__(self, rule: Callable[[PolarArray], float], sight: SightDriver) -> None:
-        """rule: the bearing [rad] that navigable ground leads to."""
-        self._rule = rule
-        self._sight = sight
-
-    def wanted_bearing(self, tick: TickContext) -> float:
-        return 0.0
-
-    def turns_in_place(self, tick: TickContext) -> bool:
-        return False
-
-    def drive(self, tick: TickContext) -> Action:
-        command = self._sight.near(tick, self._rule)
-        if command is None:
-            return self._sight.actuation.stop(), "sees no ground"
-        return command, "follows the wall"
-
-    def leave_stop(self, tick: TickContext, side: int) -> Action:
-        return self._sight.turn_to_open(tick, side)
-
-    def is_clear(self, tick: TickContext) -> bool:
-        return self._sight.is_open(tick)
-
-
-WALL_RULES = {"wall_follow_a": wall_follow_a, "wall_follow_b": wall_follow_b}
 SELECTIONS: dict[str, Callable[[Scale], Selection]] = {"tour": WholeTour, "frontier": NearestStop}
-
-
-def make_explorer(config: DecisionConfig, tracker: PathTracker, sight: SightDriver) -> Explorer:
-    """The explorer that the parameters name."""
-    if config.explorer in WALL_RULES:
-        return WallFollower(WALL_RULES[config.explorer], sight)
-    return PlanExplorer(tracker, sight, config)

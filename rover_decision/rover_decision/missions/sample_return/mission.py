@@ -14,19 +14,17 @@ from rover_decision.missions.sample_return.chart import Event, Machine, State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.drivers import Drivers
 from rover_decision.missions.sample_return.parts import Parts
-from rover_decision.missions.sample_return.states import make_states
-from rover_decision.missions.sample_return.tick import TickContext
+from rover_decision.missions.sample_return.solution import Solution
+from rover_decision.missions.sample_return.solutions import kind_of, make_solution
+from rover_decision.missions.sample_return.tick import StateBehavior, TickContext
 from rover_decision.types import Decision, Frame, Overlay, Progress, Request
 from rover_navigation.monitors import CIRCLE_SPEED
 from rover_navigation.plan_scheduler import MakeRequest, PlanStatus
 from rover_navigation.types import NO_POINTS, Plan, PlanRequest
 
-# Time goes into a rock in these, also where a recovery interrupts the approach again and again.
-APPROACHING = {State.ROCK_APPROACH, State.TILT, State.STUCK}
 # Between these it may go to and fro for ever: only to leave the spot is progress then.
 TO_AND_FRO = {State.FORWARD, State.STOP, State.CIRCLE}
 EXPLORING = TO_AND_FRO | {State.ROCK_APPROACH}
-RECOVERING = (State.TILT, State.STUCK)
 HOMEWARD = {State.RETURN_HOME, State.DONE}
 
 
@@ -36,14 +34,12 @@ class SampleReturnMission:
     def __init__(self, config: DecisionConfig) -> None:
         self._config = config
         self._new_config: DecisionConfig | None = None  # for the next tick
-        self._machine = Machine()
-        self._entered_state = self._machine.state
-        self._entered = 0.0  # [s] when
         self._time_limit = config.time_limit
+        self._recoveries_before = 0
         self._return_requested = False  # to be done when what goes on has come to its end
         self._parts = Parts.of(config)
         self._drivers = Drivers(self._parts.actuation, self._parts.scale, config)
-        self._states = make_states(config, self._parts, self._drivers)
+        self._run_solution(make_solution(config, self._parts, self._drivers))
         self._tick: TickContext | None = None  # the newest
 
     @property
@@ -86,10 +82,12 @@ class SampleReturnMission:
         parts = self._parts
         self._apply_config(frame.time)
         tick = self._observe(frame, plans)
-        event = self._states[self.state].event(tick)
+        self._solution.observe(tick, self.state)
+        event = self._behavior.event(tick)
         if event is not None and self._machine.handle(event):
             tick = self._enter(tick)
-        command, reason = self._states[self.state].act(tick)
+        command, reason = self._behavior.act(tick)
+        self._solution.commanded(tick, command)
         driving = self.state is State.FORWARD and abs(tick.speed) > CIRCLE_SPEED
         parts.circle.commanded(tick.time, command.steering_angle, driving)
         parts.motion.commanded(tick.time, tick.pose, command)
@@ -131,15 +129,48 @@ class SampleReturnMission:
             path = parts.home_paths.method.path(tick.plan, tick.pose)
         return Overlay(parts.breadcrumbs.points, parts.blocked.places, tick.plan, path)
 
+    def _run_solution(self, solution: Solution) -> None:
+        """From its beginning: the next frame starts it."""
+        self._solution = solution
+        self._machine = Machine(solution.chart)
+        self._entered_state = self._machine.state
+        self._entered = 0.0  # [s] when
+
+    @property
+    def _behavior(self) -> StateBehavior:
+        return self._solution.states[self.state]
+
     def _apply_config(self, time: float) -> None:
         """Replace what drives the rover; what is remembered stays."""
-        new, self._new_config = self._new_config, None
-        if new is None:
+        new = self._new_config
+        if new is None or self.state is State.PICKUP:  # the arm is waited for by who asked it
             return
+        self._new_config = None
         self._drivers.configure(new)
+        if kind_of(new) != kind_of(self._config) and not self.over:
+            self._change_solution(new)
         if new.way_home != self._config.way_home:
             self._parts.home_paths.prefer(new.way_home, time)
         self._config = new
+
+    def _change_solution(self, config: DecisionConfig) -> None:
+        """Go on with another one, in the phase at hand, and paused if that it is."""
+        before, homeward = self.state, self._machine.heading_home
+        self._recoveries_before = self._recoveries
+        self._run_solution(make_solution(config, self._parts, self._drivers))
+        happened = {
+            Event.start: before is not State.IDLE,
+            Event.finished: homeward,
+            Event.pause: before is State.PAUSED,
+        }
+        for event in (event for event, has in happened.items() if has):
+            self._machine.handle(event)
+
+    @property
+    def _recoveries(self) -> int:
+        """Those of this solution, and of those that ran before."""
+        states = self._solution.states.values()
+        return self._recoveries_before + sum(state.recoveries for state in states)
 
     @property
     def _heads_home(self) -> bool:
@@ -150,7 +181,7 @@ class SampleReturnMission:
         parts = self._parts
         homeward = self.state in HOMEWARD
         health, plan = parts.update(frame, plans, homeward)
-        if self.state in APPROACHING:
+        if self.state in self._solution.approaching:
             parts.samples.spend(frame, health.gap)
         tick = TickContext(
             frame=frame,
@@ -160,6 +191,7 @@ class SampleReturnMission:
             rock=parts.samples.nearest(frame),
             time_left=self._time_limit - parts.elapsed,
             since=frame.time - self._entered,
+            explored=parts.explored,
             heading_home=self._machine.heading_home,
             return_requested=self._return_requested,
         )
@@ -167,7 +199,7 @@ class SampleReturnMission:
         parts.completion.update(tick, exploring)
         if self.state is not self._entered_state:  # a request came in between
             return self._enter(tick)
-        self._states[self.state].update(tick)
+        self._behavior.update(tick)
         return tick
 
     def _enter(self, tick: TickContext) -> TickContext:
@@ -181,7 +213,7 @@ class SampleReturnMission:
             heading_home=self._machine.heading_home,
             health=replace(tick.health, stopped_moving=False),  # it is a new attempt
         )
-        self._states[self.state].enter(tick, before)
+        self._behavior.enter(tick, before)
         return tick
 
     def _progress(self, tick: TickContext) -> Progress:
@@ -195,5 +227,5 @@ class SampleReturnMission:
             rocks_given_up=samples.given_up,
             home_distance=math.dist(parts.home, (tick.pose.x, tick.pose.y)),
             distance=parts.inputs.distance,
-            recoveries=sum(self._states[state].recoveries for state in RECOVERING),
+            recoveries=self._recoveries,
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rover_common.vehicle import ROVER
-from rover_decision.missions.sample_return.completion import Completion
+from rover_decision.missions.sample_return.completion import Completion, Trigger
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.home_paths import HomePaths
 from rover_decision.missions.sample_return.rover_scale import ROVER_SCALE
@@ -54,12 +54,13 @@ class Parts:
     def of(cls, config: DecisionConfig) -> Parts:
         """As the parameters say."""
         samples = Samples(ROVER.arm_forward, config.rock_deadline, config.retry_after)
+        trigger = Trigger(config.complete_at, config.complete_rule == "all")
         goals, blocked = GoalHistory(ROVER_SCALE), BlockedPlaces(ROVER_SCALE)
         return cls(
             config=config,
             samples=samples,
             motion=MotionMonitor(config.stuck_seconds, ROVER_SCALE),
-            completion=Completion(samples, goals, blocked, config.search_limit),
+            completion=Completion(samples, goals, blocked, config.search_limit, trigger),
             home_paths=HomePaths(config.way_home),
             safe_poses=SafePoses(SAFE_TILT * config.tilt_limit, ROVER_SCALE),
             goals=goals,

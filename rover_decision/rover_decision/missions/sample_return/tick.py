@@ -25,6 +25,7 @@ class TickContext:
     rock: SeenRock | None  # the nearest one worth going for
     time_left: float  # [s] within which to be home
     since: float  # [s] in this state
+    explored: float  # 0..1, as the newest plan estimates it
     heading_home: bool  # also when that is interrupted
     return_requested: bool  # to head home when what goes on has come to its end
 

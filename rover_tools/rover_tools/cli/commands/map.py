@@ -11,7 +11,7 @@ from rover_tools.cli.options import json_option, picture_option
 
 
 @click.command("map")
-@click.option("--wait", type=Real(0.0, 3600.0, min_open=True), default=5.0, show_default=True,
+@click.option("--wait", type=Real(0.0, 3600.0, min_open=True), default=10.0, show_default=True,
               metavar="S", help="Give up after this time without a map [s].")  # fmt: skip
 @picture_option("Draw the map into this file.")
 @json_option

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from rover_common.command_line import Whole
 from rover_simulator.options import fps_option, map_option, size_option, time_limit_option
 from rover_tools.cli.options import (
     SYNTAX,
@@ -14,8 +13,10 @@ from rover_tools.cli.options import (
     StrategiesType,
     json_option,
     out_option,
+    scheduler_option,
     seeds_option,
     way_home_option,
+    workers_option,
 )
 from rover_tools.output import result_folder
 
@@ -34,11 +35,8 @@ DEFAULT_WORLDS = (1, 2, 3, 4)
 @size_option()
 @fps_option()
 @time_limit_option(900.0, "Give a mission up after this simulated time [s].")
-@click.option("--workers", type=Whole(1, 10_000), metavar="N",
-              help="Processes on this machine.  [default: one per core]")  # fmt: skip
-@click.option("--scheduler", metavar="ADDRESS",
-              help="A Dask scheduler that runs already, as tcp://host:8786, instead of "
-              "processes on this machine.")  # fmt: skip
+@workers_option
+@scheduler_option
 @out_option
 @json_option
 def command(
@@ -71,6 +69,7 @@ def command(
     """
     from rover_tools.evaluation.strategy import Strategy
     from rover_tools.scoreboard.job import Ground, make_jobs
+    from rover_tools.scoreboard.rover_board import BOARD
     from rover_tools.scoreboard.run import Engine, run_scoreboard
 
     if worlds is None:
@@ -80,4 +79,4 @@ def command(
     ground = None if map_file is None else Ground.load(map_file)
     jobs = make_jobs(worlds, ground, seeds, strategies, size=size, fps=fps, time_limit=time_limit)
     folder = result_folder("scoreboard", out)
-    run_scoreboard(jobs, folder, Engine(scheduler, workers), as_json)
+    run_scoreboard(jobs, BOARD, folder, Engine(scheduler, workers), as_json)

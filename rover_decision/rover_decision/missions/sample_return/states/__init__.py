@@ -40,7 +40,7 @@ def make_states(
         State.PICKUP: Pickup(actuation.vehicle.standing_speed),
         State.STUCK: Stuck(RecoverySequence(actuation, parts.scale.clear_distance), parts),
         State.TILT: Tilt(parts.safe_poses, parts.blocked, actuation),
-        State.HOLD: Hold(limits, drivers),
+        State.HOLD: Hold(limits),
         State.RETURN_HOME: ReturnHome(limits, drivers, parts, config.home_radius),
         State.DONE: Standing("the mission is over"),
         State.PAUSED: Standing("paused"),

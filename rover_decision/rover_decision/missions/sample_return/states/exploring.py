@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 from rover_decision.missions.sample_return.chart import Event
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.drivers import Drivers
@@ -11,7 +9,7 @@ from rover_decision.missions.sample_return.explorers import SHARP
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.states.moving import Moving
 from rover_decision.missions.sample_return.tick import TickContext
-from rover_decision.trouble import MOTION, PLANNING, Limits, Trouble
+from rover_decision.trouble import MOTION, PLANNING, Limits
 
 
 class Exploring(Moving):
@@ -20,13 +18,10 @@ class Exploring(Moving):
     def __init__(
         self, limits: Limits, drivers: Drivers, parts: Parts, config: DecisionConfig
     ) -> None:
-        super().__init__(limits, MOTION)
+        super().__init__(limits, MOTION | PLANNING)
         self._drivers = drivers
         self._parts = parts
         self._config = config
-
-    def _watched_troubles(self) -> Collection[Trouble]:
-        return MOTION | PLANNING if self._drivers.explorer.needs_plan else MOTION
 
     def _sample_event(self, tick: TickContext) -> Event | None:
         reached = super()._sample_event(tick)
@@ -36,8 +31,7 @@ class Exploring(Moving):
         return Event.rock_seen if near and not tick.return_requested else None
 
     def _own_event(self, tick: TickContext) -> Event | None:
-        collected = self._drivers.explorer.samples_suffice and self._parts.samples.all_collected
-        if collected or self._parts.completion.reached(tick):
+        if self._parts.completion.reached(tick):
             return Event.finished
         return self._way_event(tick)
 

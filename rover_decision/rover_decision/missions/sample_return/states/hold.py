@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from rover_common.types import SAFE_COMMAND
 from rover_decision.missions.sample_return.chart import Event
-from rover_decision.missions.sample_return.drivers import Drivers
 from rover_decision.missions.sample_return.tick import StateBehavior, TickContext
 from rover_decision.trouble import INPUTS, PLANNING, Limits, first_trouble
 from rover_decision.types import Action
@@ -14,13 +13,11 @@ DEADLINE = 10.0  # [s] after which it goes home by sight, without plans
 
 
 class Hold(StateBehavior):
-    def __init__(self, limits: Limits, drivers: Drivers) -> None:
+    def __init__(self, limits: Limits) -> None:
         self._limits = limits
-        self._drivers = drivers
 
     def event(self, tick: TickContext) -> Event | None:
-        needs_plan = self._drivers.explorer.needs_plan and not tick.heading_home
-        watched = INPUTS if needs_plan else INPUTS - PLANNING
+        watched = INPUTS - PLANNING if tick.heading_home else INPUTS
         fresh = first_trouble(tick.health, self._limits, watched) is None
         if fresh and abs(tick.speed) < ROLLING:
             return Event.inputs_restored

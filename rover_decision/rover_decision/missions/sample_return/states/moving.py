@@ -26,13 +26,10 @@ class Moving(StateBehavior):
     def event(self, tick: TickContext) -> Event | None:
         if tick.frame.vehicle.picking_up:  # late, or started by somebody else
             return Event.rock_reached
-        trouble = first_trouble(tick.health, self._limits, self._watched_troubles())
+        trouble = first_trouble(tick.health, self._limits, self._watched)
         if trouble is not None:
             return Event[trouble.name]
         return self._own_trouble(tick) or self._sample_event(tick) or self._own_event(tick)
-
-    def _watched_troubles(self) -> Collection[Trouble]:
-        return self._watched
 
     def _own_trouble(self, tick: TickContext) -> Event | None:
         """Trouble of this state alone."""

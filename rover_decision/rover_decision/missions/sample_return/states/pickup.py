@@ -11,9 +11,10 @@ START_SECONDS = 4.0  # [s] for a pickup to show in the telemetry after it was as
 
 
 class Pickup(StateBehavior):
-    def __init__(self, standing_speed: float) -> None:
-        """standing_speed: [m/s] below which the rover stands."""
+    def __init__(self, standing_speed: float, brake: Command = SAFE_COMMAND) -> None:
+        """standing_speed: [m/s] below which the rover stands; brake: with what it stops."""
         self._standing_speed = standing_speed
+        self._brake = brake
         self._arm_worked = False
 
     def enter(self, tick: TickContext, before: State) -> None:
@@ -36,5 +37,5 @@ class Pickup(StateBehavior):
         if not vehicle.near_sample:
             return SAFE_COMMAND, "waits for the arm"
         if abs(vehicle.speed) > self._standing_speed:
-            return SAFE_COMMAND, "stops for the pickup"
+            return self._brake, "stops for the pickup"
         return Command(brake=1.0, pickup=True), "picks up"

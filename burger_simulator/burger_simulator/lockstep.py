@@ -1,0 +1,44 @@
+"""Which answers to a tick are still missing, and since when."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class Lockstep:
+    """Times are [s] of any clock that does not fall back, stamps [ns]."""
+
+    def __init__(self, peers: Iterable[str], deadline: float) -> None:
+        """`peers`: names of those who answer each tick; within `deadline` [s]."""
+        self._peers = frozenset(peers)
+        self._deadline = deadline
+        self._stamp: int | None = None
+        self._missing: set[str] = set()
+        self._began = 0.0
+
+    def begin(self, stamp: int, now: float) -> None:
+        self._stamp, self._began = stamp, now
+        self._missing = set(self._peers)
+
+    def answer(self, peer: str, stamp: int) -> bool:
+        """Whether it answers the present tick."""
+        if stamp != self._stamp:
+            return False
+        self._missing.discard(peer)
+        return True
+
+    def arrived(self, expected: str) -> None:
+        """What was expected besides the answers."""
+        self._missing.discard(expected)
+
+    def expect(self, also: str) -> None:
+        """Something else is on its way to this tick."""
+        self._missing.add(also)
+
+    @property
+    def missing(self) -> list[str]:
+        return sorted(self._missing)
+
+    def expired(self, now: float) -> bool:
+        """Whether something is missing and the deadline is over."""
+        return bool(self._missing) and now - self._began >= self._deadline

@@ -1,0 +1,99 @@
+"""Collects what the second robot's sensors say, message by message, to batches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from rover_common.sensor_types import Imu, LaserScan, SensorBatch, ThermalFrame, WheelOdometry
+
+
+@dataclass(frozen=True)
+class Tick:
+    """The end of a batch, and how much belongs to it."""
+
+    stamp: int  # [ns]
+    scans: int = 0
+    imus: int = 0
+    odometry: int = 0
+    thermal: tuple[int, int] = (0, 0)  # of sensor 1 and 2
+    launches: int = 0  # reports of the launcher
+
+    @classmethod
+    def of(cls, batch: SensorBatch) -> Tick:
+        sensors = [frame.sensor for frame in batch.thermal]
+        return cls(
+            batch.stamp,
+            len(batch.scans),
+            len(batch.imus),
+            len(batch.odometry),
+            (sensors.count(1), sensors.count(2)),
+            batch.launches_done,
+        )
+
+
+@dataclass
+class _Said:
+    """What came since the last batch."""
+
+    scans: list[LaserScan] = field(default_factory=list)
+    imus: list[Imu] = field(default_factory=list)
+    odometry: list[WheelOdometry] = field(default_factory=list)
+    thermal: list[ThermalFrame] = field(default_factory=list)
+    launches: int = 0
+
+    def holds(self, tick: Tick) -> bool:
+        sensors = [frame.sensor for frame in self.thermal]
+        return (
+            len(self.scans) >= tick.scans
+            and len(self.imus) >= tick.imus
+            and len(self.odometry) >= tick.odometry
+            and sensors.count(1) >= tick.thermal[0]
+            and sensors.count(2) >= tick.thermal[1]
+            and self.launches >= tick.launches
+        )
+
+
+class BatchCollector:
+    """In lockstep a batch is complete when it has what its tick counts; nothing is told twice."""
+
+    def __init__(self) -> None:
+        self._said = _Said()
+        self._tick: Tick | None = None
+
+    def add(self, said: LaserScan | Imu | WheelOdometry | ThermalFrame) -> None:
+        if isinstance(said, LaserScan):
+            self._said.scans.append(said)
+        elif isinstance(said, Imu):
+            self._said.imus.append(said)
+        elif isinstance(said, WheelOdometry):
+            self._said.odometry.append(said)
+        else:
+            self._said.thermal.append(said)
+
+    def add_launch(self) -> None:
+        """The launcher has reported the end of a sequence."""
+        self._said.launches += 1
+
+    def add_tick(self, tick: Tick) -> None:
+        self._tick = tick
+
+    def take_complete(self) -> SensorBatch | None:
+        """The batch of the last tick, once all of it is there; its frames arrived with it."""
+        tick = self._tick
+        if tick is None or not self._said.holds(tick):
+            return None
+        self._said.thermal = [replace(frame, stamp=tick.stamp) for frame in self._said.thermal]
+        self._tick = None
+        return self.take(tick.stamp)
+
+    def take(self, stamp: int) -> SensorBatch:
+        """All that came since the last batch, as one of `stamp` [ns]; for a robot without ticks."""
+        said, self._said = self._said, _Said()
+        return SensorBatch(
+            stamp,
+            tuple(said.scans),
+            tuple(said.imus),
+            tuple(said.odometry),
+            tuple(sorted(said.thermal, key=lambda frame: frame.sensor)),
+            said.launches,
+        )

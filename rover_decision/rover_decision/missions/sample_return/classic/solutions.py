@@ -1,0 +1,56 @@
+"""The two solutions, put together."""
+
+from __future__ import annotations
+
+from rover_common.vehicle import ROVER
+from rover_decision.missions.sample_return.chart import Event, State
+from rover_decision.missions.sample_return.classic import states_a as a
+from rover_decision.missions.sample_return.classic import states_b as b
+from rover_decision.missions.sample_return.classic.chart_a import ClassicAChart
+from rover_decision.missions.sample_return.classic.chart_b import ClassicBChart
+from rover_decision.missions.sample_return.classic.commands import stop
+from rover_decision.missions.sample_return.classic.homing import Homing
+from rover_decision.missions.sample_return.config import DecisionConfig
+from rover_decision.missions.sample_return.drivers import Drivers
+from rover_decision.missions.sample_return.parts import Parts
+from rover_decision.missions.sample_return.solution import Solution
+from rover_decision.missions.sample_return.states.pickup import Pickup
+from rover_decision.missions.sample_return.states.standing import Standing
+from rover_decision.missions.sample_return.tick import StateBehavior
+
+
+def classic_a(config: DecisionConfig, parts: Parts, drivers: Drivers) -> Solution:
+    """Wall following with breadcrumbs."""
+    memory = a.MemoryA(parts, Homing(parts, drivers), config.nav_cell)
+    states: dict[State, StateBehavior] = {
+        State.FORWARD: a.ForwardA(memory),
+        State.STOP: a.StopA(memory),
+        State.ROCK_APPROACH: a.RockApproachA(memory),
+        State.STUCK: a.StuckA(memory),
+        State.CIRCLE: a.PushA(memory),
+        State.RETURN_HOME: a.ReturnHomeA(memory),
+    }
+    return Solution(ClassicAChart, _with_standing(states), memory.observe, memory.commanded)
+
+
+def classic_b(config: DecisionConfig, parts: Parts, drivers: Drivers) -> Solution:
+    """Wall following with a bias, side clearance, stuck and circle."""
+    memory = b.MemoryB(parts, Homing(parts, drivers), config)
+    states: dict[State, StateBehavior] = {
+        State.FORWARD: b.ForwardB(memory),
+        State.STOP: b.StopB(memory),
+        State.ROCK_APPROACH: b.RockApproachB(memory),
+        State.STUCK: b.StuckB(memory),
+        State.CIRCLE: b.CircleB(memory),
+        State.RETURN_HOME: b.ReturnHomeB(memory),
+    }
+    return Solution(ClassicBChart, _with_standing(states), memory.observe, memory.commanded)
+
+
+def _with_standing(states: dict[State, StateBehavior]) -> dict[State, StateBehavior]:
+    return states | {
+        State.IDLE: Standing("waits for the first frame", Event.start),
+        State.PICKUP: Pickup(ROVER.standing_speed, stop()),
+        State.DONE: Standing("the mission is over"),
+        State.PAUSED: Standing("paused"),
+    }

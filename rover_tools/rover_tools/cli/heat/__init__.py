@@ -1,0 +1,1 @@
+"""`rover heat NAME`: the second robot's mission."""

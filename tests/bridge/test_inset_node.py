@@ -1,0 +1,56 @@
+"""The node that the insets are drawn from, and the truth that colours them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import rclpy
+from node_endpoints import endpoints, listed
+from rclpy.context import Context
+from rclpy.parameter import Parameter
+from readme_tables import ROOT
+
+from rover_bridge import node as bridge_node
+from rover_bridge.node import BridgeNode
+from rover_bridge.node_insets import InsetNode
+from rover_common.errors import RoverError
+
+
+def test_the_topics_are_those_of_the_readme(ros):
+    node = InsetNode(ros.add(BridgeNode, port=0))
+    try:
+        found = endpoints(node.subscriptions)
+    finally:
+        node.destroy_node()
+    assert found == listed(ROOT / "rover_bridge" / "README.md", "Subscribes for the insets")
+
+
+def test_the_node_has_the_bridges_namespace_and_topics(domain_id):
+    arguments = ["--ros-args", "-r", "__ns:=/one", "-r", "__node:=two", "-r", "worldmap:=three"]
+    context = Context()
+    rclpy.init(context=context, args=arguments, domain_id=domain_id)
+    bridge = BridgeNode(context=context, parameter_overrides=[Parameter("port", value=0)])
+    node = InsetNode(bridge)
+    try:
+        assert node.get_fully_qualified_name() == "/one/two_insets"
+        assert {s.topic_name for s in node.subscriptions} >= {"/one/three", "/one/rocks"}
+    finally:
+        node.destroy_node()
+        bridge.destroy_node()
+        context.try_shutdown()
+
+
+def test_a_wrong_truth_is_one_clear_line(ros, monkeypatch):
+    with pytest.raises(RoverError, match=r"nothing\.png: No such file or directory"):
+        ros.add(BridgeNode, port=0, truth="nothing.png")
+
+    def run_node(*_: Any, **__: Any) -> None:
+        BridgeNode(
+            context=ros.context,
+            parameter_overrides=[Parameter("truth", value=str(ROOT / "README.md"))],
+        )
+
+    monkeypatch.setattr(bridge_node, "run_node", run_node)
+    with pytest.raises(SystemExit, match=r"^bridge_node: .*README.md: not an image$"):
+        bridge_node.main()
