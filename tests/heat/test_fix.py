@@ -101,12 +101,24 @@ def test_there_is_none_beyond_the_reach_and_none_without_rays():
     assert make_fix(WARM, view(behind), CONFIG) is None
 
 
-@pytest.mark.parametrize(("near_rays", "expected"), [(2, 2.0), (4, 1.0)])
-def test_of_two_surfaces_the_nearer_wins_with_a_third_of_the_rays(near_rays, expected):
+@pytest.mark.parametrize(
+    ("near_rays", "expected", "sharp"),
+    [(0, 2.0, True), (2, 2.0, True), (4, 1.0, False), (5, 1.0, False), (9, 1.0, True)],
+)
+def test_of_two_surfaces_the_nearer_wins_with_a_third_of_the_rays(near_rays, expected, sharp):
     angles = np.linspace(-0.06, 0.06, 9)
     ranges = np.where(np.arange(9) < near_rays, 1.05, 2.05)
     hits = ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    assert make_fix(WARM, view(hits), CONFIG).range == pytest.approx(expected, abs=0.1)
+    found = make_fix(WARM, view(hits), CONFIG)
+    assert found.range == pytest.approx(expected, abs=0.1)
+    assert found.sharp == sharp
+
+
+def test_along_a_wall_no_fix_is_sharp():
+    room = Room(np.array([[-3.0, 0.0, 3.0, 0.0]]))
+    for yaw, sharp in ((-40.0, True), (-30.0, False)):
+        pose = Pose(-1.0, 0.5, math.radians(yaw))
+        assert make_fix(WARM, view(hits_of(room, pose), pose), CONFIG).sharp == sharp
 
 
 def test_the_covariance_grows_along_the_wall_with_range_and_turning():

@@ -43,8 +43,9 @@ def test_a_robot_that_backs_onto_a_ramp_knows_it_behind_itself():
     assert abs(wrap_angle(ramp.yaw - math.pi / 2)) < math.radians(2.0)
 
 
-def test_a_ramp_that_rises_to_the_side_is_not_met_straight():
-    assert not met(0.3, 2.0, 0.0, roll=RISE, pitch=-0.02).straight
+def test_a_flank_that_is_met_across_the_strip_does_not_tell_the_rise():
+    assert not met(0.3, 2.0, 0.0, pitch=-RISE, roll=0.01).straight
+    assert met(0.3, 2.0, 0.0, roll=RISE, pitch=-0.03).straight
 
 
 def test_without_walls_beside_the_robots_own_path_is_the_middle():

@@ -73,6 +73,13 @@ def test_too_many_groups_are_dropped_and_too_few_are_not_split():
     assert len(find_sources(cloud(0.0, 0.0, 30), replace(CONFIG, clusters=3))) == 1
 
 
+def test_the_worst_fixes_of_a_source_are_no_source_of_their_own():
+    fixes = cloud(0.0, 0.0, 40) + cloud(0.0, 0.45, 5, seed=1)
+    assert places(fixes) == [(0.0, 0.0)]
+    assert len(places(cloud(0.0, 0.0, 40) + cloud(0.0, 0.45, 20, seed=1))) == 2
+    assert len(places(cloud(0.0, 0.0, 40) + cloud(0.0, 0.6, 5, seed=1))) == 2
+
+
 def test_a_better_fix_weighs_more():
     fixes = [fix(0.2, 0.0, sigma=0.2)] * 5 + [fix(0.0, 0.0, sigma=0.02)] * 5
     (source,) = find_sources(fixes, CONFIG)

@@ -54,7 +54,7 @@ class GoalBook:
         """Faces (n, 2) [m] that a view left unexamined; those of them to be given up."""
         given_up = []
         for x, y in faces.tolist():
-            key = (round(x / self.cell), round(y / self.cell))
+            key = (math.floor(x / self.cell), math.floor(y / self.cell))
             self._tries[key] = self._tries.get(key, 0) + 1
             if self._tries[key] >= MOST_VIEWS:
                 given_up.append((x, y))

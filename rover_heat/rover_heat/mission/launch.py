@@ -46,6 +46,7 @@ class Launch:
 
     def begin(self, time: float, source: HeatSource | None) -> None:
         """The robot stands where it launches; one that has been signalled goes on."""
+        self.signalled_now = False
         if not self.signalled:
             self._begun = time
             self._phase = Phase.ALIGNING if source is not None else Phase.STILLING

@@ -31,7 +31,7 @@ class HeatMission:
         self._config = config
         self._machine = Machine()
         self._entered_state = self._machine.state
-        self._entered = 0.0  # [s] when
+        self._entered: float | None = None  # [s] when
         self._parts = HeatParts.of(config, navigator)
         self._states = make_states(self._parts)
         self._plan: HeatPlan | None = None
@@ -141,6 +141,8 @@ class HeatMission:
         health = parts.update(frame, plans)
         new = parts.take_plan(plans.plan)
         self._plan = plans.plan
+        if self._entered is None:
+            self._entered = frame.time
         pose, since = frame.pose or UNKNOWN, frame.time - self._entered
         tick = HeatTick(frame, pose, plans.plan, new, health, since)
         if self.state is not self._entered_state:  # a request came in between

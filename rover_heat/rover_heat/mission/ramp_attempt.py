@@ -45,8 +45,8 @@ class RampAttempt:
         self.twist: Twist | None = STAND
 
     def restart(self, time: float) -> None:
-        """After an interruption: a way that the navigator drove begins anew."""
-        if self.phase is Phase.APPROACHING:
+        """After an interruption: what is not yet on the ramp begins anew."""
+        if self.phase in (Phase.CHOOSING, Phase.APPROACHING):
             self._enter(Phase.CHOOSING, time)
 
     def update(self, tick: HeatTick) -> None:

@@ -11,8 +11,9 @@ import numpy as np
 from rover_common.geometry import wrap_angle
 from rover_heat.config import HeatConfig, thermal_yaw
 from rover_heat.planning.types import HeatPlan, StandOff
-from rover_heat.thermal.detection import WarmPatch
+from rover_heat.thermal.detection import AZIMUTHS, PIXEL
 from rover_heat.thermal.fix import View
+from rover_heat.thermal.sensing import Columns
 from rover_heat.thermal.sources import SAME_SIDE, Group
 from rover_heat.types import HeatSource
 
@@ -23,6 +24,8 @@ COLD_RANGE, COLD_OBLIQUE = 1.0, math.radians(40.0)  # [m], off its normal
 COLD_FIELD = math.radians(18.0)  # off a sensor's axis
 COLD_ON_WALL = 0.12  # [m] from the source to what the lidar met there
 COLD_LEAST = 8  # such frames
+NEAR, COLD_NEAR = 0.5, 3  # [m] from where one counts for so many
+COLD_SHARE = 0.6  # of the contrast that is heat: less is cold
 
 
 @dataclass
@@ -59,13 +62,13 @@ class SourceBook:
         for number in gone:
             del self._entries[number]
 
-    def note_views(self, views: Iterable[tuple[View, WarmPatch | None]]) -> list[HeatSource]:
+    def note_views(self, views: Iterable[tuple[View, Columns]]) -> list[HeatSource]:
         """Frames of one tick; the sources that they refute, which are dropped."""
         refuted = []
-        for view, patch in views:
+        for view, columns in views:
             for entry in self._entries.values():
-                if not entry.source.delivered and self._is_cold(view, patch, entry.source):
-                    entry.cold += 1
+                if not entry.source.delivered:
+                    entry.cold += self._coldness(view, columns, entry.source)
         for number, entry in list(self._entries.items()):
             if entry.cold >= COLD_LEAST and entry.cold > entry.source.observations:
                 refuted.append(self._entries.pop(number).source)
@@ -132,17 +135,18 @@ class SourceBook:
         seen = entry.source.observations >= SURE_OBSERVATIONS
         return seen and entry.nearest <= SURE_RANGE and entry.cold * 2 < entry.source.observations
 
-    def _is_cold(self, view: View, patch: WarmPatch | None, source: HeatSource) -> bool:
-        """Whether a frame ought to show a source, and does not."""
-        if patch is not None:
-            return False
+    def _coldness(self, view: View, columns: Columns, source: HeatSource) -> int:
+        """What a frame says against a source that it ought to show, and does not."""
         dx, dy = source.x - view.pose.x, source.y - view.pose.y
         distance, direction = math.hypot(dx, dy), math.atan2(dy, dx)
-        axis = view.pose.yaw + thermal_yaw(self.config, view.sensor)
+        aside = wrap_angle(direction - view.pose.yaw - thermal_yaw(self.config, view.sensor))
         oblique = abs(wrap_angle(direction + math.pi - source.normal))
-        if distance > COLD_RANGE or oblique > COLD_OBLIQUE:
-            return False
-        if abs(wrap_angle(direction - axis)) > COLD_FIELD:
-            return False
+        if distance > COLD_RANGE or oblique > COLD_OBLIQUE or abs(aside) > COLD_FIELD:
+            return 0
+        around = np.abs(AZIMUTHS - aside) <= 1.5 * PIXEL
+        if columns[around].max() >= COLD_SHARE * self.config.temp_contrast:
+            return 0
         to_hits = np.hypot(*(view.hits - (source.x, source.y)).T)
-        return bool((to_hits < COLD_ON_WALL).any())
+        if not (to_hits < COLD_ON_WALL).any():
+            return 0
+        return COLD_NEAR if distance < NEAR else 1

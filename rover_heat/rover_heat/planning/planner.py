@@ -9,6 +9,7 @@ from rover_heat.config import HeatConfig
 from rover_heat.planning.faces import Faces, find_faces
 from rover_heat.planning.frontier_goals import frontier_goals
 from rover_heat.planning.ground_goals import ground_goals
+from rover_heat.planning.order import in_order
 from rover_heat.planning.site import Site, make_site
 from rover_heat.planning.stand_off import approach, stand_offs
 from rover_heat.planning.types import HeatGoal, HeatPlan, HeatPlanRequest
@@ -36,7 +37,7 @@ class HeatPlanner:
         faces = find_faces(site, request.examined)
         sights = find_sights(site, faces)
         views = self._views(request, site, faces, sights)
-        goals = sorted([*frontiers, *views], key=lambda goal: -goal.worth)
+        goals = in_order(site, [*frontiers, *views])
         if request.seek_ramp:
             goals = ground_goals(site, request.trail)
         failed = _failed(goals, request.failed)

@@ -23,8 +23,10 @@ SIDE_WINDOW = math.radians(8.0)  # around straight to either side, for the walls
 SIDE_REACH = 1.0  # [m] of a wall that counts as beside
 BESIDE = 1.3  # [m] between two such walls at most: the ramp lies in their middle
 ORTHOGONAL = 0.5  # of 1: how much the walls around agree on two directions
-SEGMENT = 0.15  # [m] between neighbouring rays that may lie on one wall
-STRAIGHT_ON = 2.0  # times the roll is the pitch of a robot that climbs on both wheels
+STRIDE, SEGMENT = 5, (0.04, 0.4)  # rays from one to another, and [m] between, of one wall
+# Cosine of the angle between the rise and where the robot leans: with walls that tell the direction
+# only the sense is to be told, else all of it.
+ALONG_BETWEEN, ALONG = 0.5, 0.9
 
 Points = NDArray[np.float64]
 
@@ -52,35 +54,48 @@ class Ramp:
 
 
 def estimate_ramp(pose: Pose, lean: Lean, hits: Points) -> Ramp:
-    """From where the tilt was noticed, how the robot leans, and what the lidar meets (n, 2) [m]."""
+    """From where the tilt was noticed, how the robot leans, and what the lidar meets (n, 2) [m].
+
+    A ramp lies along walls; where one of their two directions has walls to both sides nearby, it is
+    that one, for a robot that meets the ramp aslant leans aside as well.
+    """
     uphill = math.atan2(lean.roll, -lean.pitch)  # in base_footprint
-    yaw = _along_walls(wrap_angle(pose.yaw + uphill), hits)
-    cos, sin = math.cos(yaw), math.sin(yaw)
     rear = BURGER.caster_x if abs(uphill) > math.pi / 2 else 0.0  # what rose first
     x, y = pose.x + rear * math.cos(pose.yaw), pose.y + rear * math.sin(pose.yaw)
-    aside = _middle_between_walls(x, y, yaw, hits)
-    straight = abs(lean.pitch) > STRAIGHT_ON * abs(lean.roll)
-    x -= FIRED_BEYOND * cos + (aside or 0.0) * sin
-    y -= FIRED_BEYOND * sin - (aside or 0.0) * cos
-    return Ramp(x, y, yaw, straight, between=aside is not None)
+    yaw, between = _direction(x, y, wrap_angle(pose.yaw + uphill), hits)
+    middle = _middle_between_walls(x, y, yaw, hits)
+    aside = 0.0 if middle is None else middle
+    along = math.cos(wrap_angle(pose.yaw + uphill - yaw))
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return Ramp(
+        x - FIRED_BEYOND * cos - aside * sin,
+        y - FIRED_BEYOND * sin + aside * cos,
+        yaw,
+        straight=along >= (ALONG_BETWEEN if between else ALONG),
+        between=between,
+    )
 
 
-def _along_walls(yaw: float, hits: Points) -> float:
-    """The direction of the walls around, or across them, that is nearest to a yaw [rad].
+def _direction(x: float, y: float, uphill: float, hits: Points) -> tuple[float, bool]:
+    """[rad] Of the rise at a place, and whether it is known by walls to both sides of it alone."""
+    wall = _wall_direction(hits)
+    if wall is None:
+        return uphill, False
+    axes = [wall, wall + math.pi / 2]
+    between = [axis for axis in axes if _middle_between_walls(x, y, axis, hits) is not None]
+    sides = [wrap_angle(axis + turn) for axis in between or axes for turn in (0.0, math.pi)]
+    return min(sides, key=lambda side: abs(wrap_angle(side - uphill))), len(between) == 1
 
-    The yaw itself where the walls have no two directions.
-    """
-    steps = np.diff(hits, axis=0)
+
+def _wall_direction(hits: Points) -> float | None:
+    """[rad] Of the walls around, up to quarter turns; None where they have no two directions."""
+    steps = hits[STRIDE:] - hits[:-STRIDE]
     length = np.hypot(*steps.T)
-    steps = steps[(length > 0.0) & (length < SEGMENT)]
+    steps = steps[(length > SEGMENT[0]) & (length < SEGMENT[1])]
     if len(steps) == 0:
-        return yaw
+        return None
     fourfold = np.exp(4j * np.arctan2(steps[:, 1], steps[:, 0])).mean()
-    if abs(fourfold) < ORTHOGONAL:
-        return yaw
-    wall = float(np.angle(fourfold)) / 4.0
-    quarter = math.pi / 2
-    return wrap_angle(wall + quarter * round((yaw - wall) / quarter))
+    return float(np.angle(fourfold)) / 4.0 if abs(fourfold) > ORTHOGONAL else None
 
 
 def _middle_between_walls(x: float, y: float, yaw: float, hits: Points) -> float | None:

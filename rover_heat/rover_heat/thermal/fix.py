@@ -14,7 +14,11 @@ from rover_heat.thermal.detection import PIXEL, WarmPatch
 
 NEARER_SHARE = 1.0 / 3.0  # of a window's rays, with which a nearer surface is taken
 FACE_REACH = 0.12  # [m] of wall to either side that its direction is fitted to
-LEAST_FACE = 4  # points, without which the wall is taken to face the robot
+LEAST_FACE = 5  # points, without which the wall is taken to face the robot
+OTHERS = 0.25  # of a window's rays on other surfaces, with which the place is not certain
+SURFACE_DEPTH = 0.15  # [m] from the chosen surface's mean that a ray of it may lie
+GRAZING = math.cos(math.radians(80.0))  # of the ray with the wall's normal, at least
+SHARP_OBLIQUE = math.radians(55.0)  # off the wall's normal
 # Deviations that are added up. A pixel's width alone would be its share of sqrt(12).
 BEARING_SIGMA = PIXEL / math.sqrt(12.0)
 RANGE_SIGMA, RANGE_SIGMA_SHARE = 0.005, 0.01  # [m] and of the range, of the lidar
@@ -37,6 +41,9 @@ class Fix:
     normal: float  # [rad] of the wall, towards where it was seen from
     range: float  # [m] from the robot
     peak: float  # [K] above the surroundings
+    # One surface alone, seen well enough: past a wall's end, or along a wall, a pixel's width is
+    # too much to tell where the heat is.
+    sharp: bool = True
 
 
 @dataclass(frozen=True)
@@ -71,12 +78,16 @@ def make_fix(patch: WarmPatch, view: View, config: HeatConfig) -> Fix | None:
     direction = bearing + math.atan2(np.sin(aside[chosen]).mean(), np.cos(aside[chosen]).mean())
     distance = float(ranges[chosen].mean())
     middle = origin + distance * np.array([math.cos(direction), math.sin(direction)])
-    place, normal = _on_face(middle, view.hits, origin, direction)
+    face = _on_face(middle, view.hits, origin, direction)
+    place, normal = face or (middle, wrap_angle(direction + math.pi))
+    others = np.abs(ranges[inside] - distance) > SURFACE_DEPTH
+    oblique = abs(wrap_angle(direction + math.pi - normal))
+    sharp = face is not None and others.mean() < OTHERS and oblique <= SHARP_OBLIQUE
     distance = float(np.hypot(*(place - origin)))
     covariance = _covariance(view, direction, distance, normal)
     return Fix(
         view.stamp, view.sensor, patch.pixel, float(place[0]), float(place[1]), covariance, normal,
-        distance, patch.peak,
+        distance, patch.peak, bool(sharp),
     )  # fmt: skip
 
 
@@ -92,20 +103,21 @@ def _surface(ranges: NDArray[np.float64], width: float) -> NDArray[np.intp]:
 
 def _on_face(
     middle: Points, hits: Points, origin: Points, direction: float
-) -> tuple[Points, float]:
-    """The place (2,) [m] where the ray meets the wall's line, and the wall's normal [rad]."""
+) -> tuple[Points, float] | None:
+    """The place (2,) [m] where the ray meets the wall's line, and the wall's normal [rad].
+
+    None where too few points lie on one line.
+    """
     near = hits[np.hypot(*(hits - middle).T) <= FACE_REACH]
-    back = wrap_angle(direction + math.pi)
     if len(near) < LEAST_FACE:
-        return middle, back
+        return None
     center = near.mean(axis=0)
     values, vectors = np.linalg.eigh(np.cov((near - center).T))
     normal = vectors[:, 0]
     ray = np.array([math.cos(direction), math.sin(direction)])
     towards = float(normal @ ray)
-    flat = values[0] < 0.25 * values[1]
-    if not flat or abs(towards) < math.cos(math.radians(80.0)):
-        return middle, back
+    if values[0] > 0.25 * values[1] or abs(towards) < GRAZING:
+        return None
     distance = float(normal @ (center - origin)) / towards
     place = origin + distance * ray
     if np.hypot(*(place - middle)) > FACE_REACH:

@@ -15,6 +15,7 @@ from rover_navigation.localization.scan_points import deskew, last_ray
 from rover_navigation.types import NO_POINTS
 
 KEPT = 12  # scans: more than a second of them
+TOGETHER = 3  # scans
 NEAR = 500_000_000  # [ns] from a thermal frame to a scan that serves it
 
 Points = NDArray[np.float64]
@@ -42,11 +43,13 @@ class ScanHits:
             self._hits.append((last_ray(self._waiting.popleft()), hits))
 
     def near(self, stamp: int) -> Points:
-        """(n, 2) [m] Of the scan that ended nearest to a stamp [ns]; none when that is too long."""
-        best = min(self._hits, key=lambda hit: abs(hit[0] - stamp), default=None)
-        if best is None or abs(best[0] - stamp) > NEAR:
-            return NO_POINTS
-        return best[1]
+        """(n, 2) [m] Of the scans that ended nearest to a stamp [ns]; none when that is too long.
+
+        Some of them together: one turn alone has four rays for the width of a pixel.
+        """
+        order = sorted(self._hits, key=lambda hit: abs(hit[0] - stamp))
+        hits = [hit for at, hit in order[:TOGETHER] if abs(at - stamp) <= NEAR]
+        return np.concatenate(hits) if hits else NO_POINTS
 
 
 def _placed(scan: LaserScan, poses: PoseSource) -> Points | None:

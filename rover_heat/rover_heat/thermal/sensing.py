@@ -7,6 +7,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, wrap_angle
 from rover_common.sensor_types import ThermalFrame
@@ -23,6 +24,7 @@ from rover_heat.types import HeatFrame
 SENSORS = (1, 2)
 SILENT = 3.0  # [s] without a frame, after which a sensor counts as dead
 AIR_SPAN = 6.0  # [K] from the air, within which a frame's median is plausible
+Columns = NDArray[np.float64]  # (8,) [K] the hottest of each column above the frame's median
 AIR_FRAMES = 20  # at first, whose median is the air
 MOST_FIXES = 1200  # kept; then every second of the older half goes
 
@@ -52,7 +54,7 @@ class ThermalSensing:
         self.scans = ScanHits()
         self.coverage = Coverage(config)
         self.fixes: list[Fix] = []
-        self.views: list[tuple[View, WarmPatch | None]] = []  # of this tick, that were fit
+        self.views: list[tuple[View, Columns]] = []  # of this tick, that were fit
         self.dropped: Counter[str] = Counter()  # frames, by reason
 
     def update(self, frame: HeatFrame) -> None:
@@ -105,6 +107,7 @@ class ThermalSensing:
         pose = frame.poses.pose_at(stamp)
         celsius = sensor.stuck.mended(celsius)
         sensor.patch = find_patch(celsius, self._config)
+        columns = celsius.max(axis=0) - np.median(celsius)
         fit = self._in_air(sensor, float(np.median(celsius))) and self._tilt.fit(stamp)
         if pose is None:
             sensor.warm_in_row = 0
@@ -112,18 +115,18 @@ class ThermalSensing:
         self._watch_pixels(thermal.sensor, sensor, pose)
         sensor.warm_in_row = sensor.warm_in_row + 1 if fit and sensor.patch is not None else 0
         if fit:
-            self._look(thermal.sensor, sensor, View(
+            self._look(sensor, columns, View(
                 stamp, thermal.sensor, pose, frame.twist.linear, self._tilt.turn_rate(stamp),
                 self.scans.near(stamp),
             ))  # fmt: skip
 
-    def _look(self, number: int, sensor: _Sensor, view: View) -> None:
+    def _look(self, sensor: _Sensor, columns: Columns, view: View) -> None:
         """A frame that is fit: what it examines, and the fix when it is the second that is warm."""
-        self.views.append((view, sensor.patch))
+        self.views.append((view, columns))
         self.coverage.update(view, sensor.frames)
         if sensor.patch is not None and sensor.warm_in_row >= 2:
             fix = make_fix(sensor.patch, view, self._config)
-            if fix is not None:
+            if fix is not None and (fix.sharp or self._config.heat_bearing == "axis"):
                 self.fixes.append(fix)
         if len(self.fixes) > MOST_FIXES:
             half = MOST_FIXES // 2

@@ -15,6 +15,8 @@ from rover_heat.thermal.fix import Fix
 
 SAME_SIDE = math.radians(60.0)  # between the normals of fixes of one group
 SIGMA_LEAST = 0.02  # [m] errors that all fixes of a source share do not average out
+# A group this near to another one, in units of the group distance, with so many times fewer fixes
+SATELLITE_DISTANCE, SATELLITE_SHARE = 1.5, 4
 KMEANS_CLUSTERS = 3  # where no number is given
 SEED = 0  # of the first guess of k-means
 
@@ -41,7 +43,25 @@ def find_sources(fixes: Sequence[Fix], config: HeatConfig) -> tuple[Group, ...]:
     members = _kmeans(table, config) if by_kmeans else _groups(table, config)
     groups = [_group(table, which) for which in members]
     groups.sort(key=lambda group: -group.observations)
+    if not by_kmeans:
+        groups = _without_satellites(groups, config.group_distance)
     return tuple(groups[: config.clusters or None])
+
+
+def _without_satellites(groups: list[Group], distance: float) -> list[Group]:
+    """Without those that are a greater one's worst fixes; the greatest come first."""
+    kept: list[Group] = []
+    for group in groups:
+        if not any(_is_satellite(group, other, distance) for other in kept):
+            kept.append(group)
+    return kept
+
+
+def _is_satellite(group: Group, other: Group, distance: float) -> bool:
+    away = math.dist((group.x, group.y), (other.x, other.y))
+    turned = math.cos(group.normal - other.normal)
+    few = group.observations * SATELLITE_SHARE <= other.observations
+    return few and away <= SATELLITE_DISTANCE * distance and turned >= math.cos(SAME_SIDE)
 
 
 class _Table:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
+from rover_decision.trouble import Trouble
 from rover_heat.mission.chart import Event, State
 from rover_heat.mission.launch import Launch
 from rover_heat.mission.parts import HeatParts
@@ -10,6 +13,7 @@ from rover_heat.mission.states.goal_navigation import GoalNavigation
 from rover_heat.mission.tick import HeatAction, HeatTick
 from rover_heat.types import HeatSource
 
+STANDING = frozenset({Trouble.tilted, Trouble.input_gap, Trouble.clock_apart})
 INTERRUPTIONS = (State.HOLD, State.PAUSED, State.FAILED, State.TILT_INTERRUPT)
 
 
@@ -38,6 +42,9 @@ class Launching(Driving):
         if self._launch.done:
             return self._parts.agenda.next_event()
         return None if self._launch.signalled else super().event(tick)
+
+    def _watched(self) -> Collection[Trouble]:
+        return STANDING
 
     def _own_event(self, tick: HeatTick) -> Event | None:
         if not self._launch.missed:
