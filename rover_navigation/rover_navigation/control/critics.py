@@ -76,7 +76,7 @@ def _path_cost(paths: Trajectories, path: NDArray[np.float32]) -> NDArray[np.flo
     steps = np.diff(path, axis=0)
     lengths = np.hypot(steps[:, 0], steps[:, 1])
     left = np.append(np.cumsum(lengths[::-1])[::-1], np.float32(0))
-    along = steps / lengths[:, None]
+    along = steps / np.maximum(lengths, np.float32(1e-6))[:, None]  # points may coincide
     along = np.concatenate([along, along[-1:]])  # (points, 2) direction of the path
     x = paths.x[EVERY - 1 :: EVERY, :, None] - path[:, 0]
     y = paths.y[EVERY - 1 :: EVERY, :, None] - path[:, 1]
