@@ -12,6 +12,7 @@ from burger_simulator.world.maze import HeatSource, Maze, Ramp, Wall
 from rover_common.geometry import Pose
 from rover_common.types import GridMap
 from rover_heat.mission.chart import State
+from rover_heat.types import HeatOverlay
 from rover_heat.types import HeatSource as Reported
 from rover_tools.evaluation.heat_mission_result import HeatRun, heat_mission_result
 from rover_tools.evaluation.heat_ticks import START_TIME, HeatTicks, TickLog
@@ -57,9 +58,12 @@ def run_of(**changes) -> HeatRun:
     """One that achieved everything."""
     spans = (State.EXPLORING, 200.0), (State.ATTEMPTING_RAMP, 50.0)
     run = HeatRun(
-        State.DONE, "the mission is over", 1, (reported(0.0, 2.0), reported(3.0, 4.0)), None,
+        State.DONE, "the mission is over", 1,
+        HeatOverlay(sources=(reported(0.0, 2.0), reported(3.0, 4.0))), None,
         START, ticks_of(*spans), TRUTH,
     )  # fmt: skip
+    if "sources" in changes:
+        changes["overlay"] = HeatOverlay(sources=changes.pop("sources"))
     return replace(run, **changes)
 
 

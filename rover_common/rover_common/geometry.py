@@ -49,6 +49,12 @@ def compose(frame: Pose, pose: Pose) -> Pose:
     )
 
 
+def compose_points(frame: Pose, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same for points (n, 2) [m]."""
+    cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
+    return points @ np.array([(cos, sin), (-sin, cos)]) + (frame.x, frame.y)
+
+
 def inverse(frame: Pose) -> Pose:
     """The frame in which `frame` is given, as seen from it; planar."""
     cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)

@@ -16,8 +16,8 @@ from rover_tools.report.map_layers import Window
 from rover_tools.report.video.animation import images_of
 from rover_tools.report.video.colours import BLUE, GROUND, OBSTACLE, PURPLE, UNKNOWN
 from rover_tools.report.video.composition import HEIGHT, WIDTH, Composition
-from rover_tools.report.video.map_view import MapView
-from rover_tools.report.video.mission_video import LAST_FRAMES, write_video
+from rover_tools.report.video.mission_video import LAST_FRAMES, evenly, write_video
+from rover_tools.report.video.rover_scene import RoverScene
 from rover_tools.report.video.snapshot import Snapshot, Video
 from rover_tools.report.video.writer import FPS
 
@@ -34,7 +34,7 @@ def snapshot_at(time: float, **changes) -> Snapshot:
 
 
 def test_camera_vision_and_map_are_side_by_side():
-    frame = Composition(WINDOW).frame(snapshot_at(1.0))
+    frame = Composition(RoverScene(WINDOW)).frame(snapshot_at(1.0))
     assert frame.shape == (HEIGHT, WIDTH, 3)
     assert (frame[80, 160] == (200, 0, 0)).all()
     assert (frame[80, 480] == (0, 200, 0)).all()
@@ -44,16 +44,18 @@ def test_camera_vision_and_map_are_side_by_side():
 
 def test_nothing_known_yet_is_a_frame_too():
     snapshot = Snapshot(moment_at(0.0), 0)
-    assert Composition(WINDOW).frame(snapshot).shape == (HEIGHT, WIDTH, 3)
+    assert Composition(RoverScene(WINDOW)).frame(snapshot).shape == (HEIGHT, WIDTH, 3)
 
 
 def test_an_image_of_another_size_is_fitted():
-    frame = Composition(WINDOW).frame(snapshot_at(0.0, camera=np.full((480, 640, 3), 90, np.uint8)))
+    frame = Composition(RoverScene(WINDOW)).frame(
+        snapshot_at(0.0, camera=np.full((480, 640, 3), 90, np.uint8))
+    )
     assert (frame[5:155, 5:315] == 90).all()
 
 
 def test_figures_and_state_change_with_the_mission():
-    composition = Composition(WINDOW)
+    composition = Composition(RoverScene(WINDOW))
     first, second = (composition.frame(snapshot_at(time))[160:] for time in (10.0, 50.0))
     assert (first != second).any(axis=(1, 2)).sum() > 40  # rows of text and of the band
     assert (second[170, 20] != second[32, 20]).any()  # the band's past, and the state now
@@ -66,8 +68,8 @@ def test_places_of_the_map_frame_are_where_they_belong():
     cells[89, 41] = True  # the second cell from the west in the northern row of the window
     grid = grid_of(cells)
     grid.cells[60, 119] = 100  # the south-east corner of the window
-    view = MapView(WINDOW, 800, 300)
-    picture = view.draw(Snapshot(moment_at(0.0, pose=Pose(80.0, 75.0, 0.0)), 0, grid=grid))
+    view = RoverScene(WINDOW, (800, 300))
+    picture = view.map(Snapshot(moment_at(0.0, pose=Pose(80.0, 75.0, 0.0)), 0, grid=grid))
     assert (picture[0:10, 10:20] == GROUND).all()
     assert (picture[290:300, 790:800] == OBSTACLE).all()
     others = (picture == GROUND).all(axis=2).sum(), (picture == OBSTACLE).all(axis=2).sum()
@@ -75,9 +77,9 @@ def test_places_of_the_map_frame_are_where_they_belong():
 
 
 def test_the_track_stays_on_the_map():
-    view = MapView(WINDOW, 800, 300)
+    view = RoverScene(WINDOW, (800, 300))
     for time in range(41):
-        picture = view.draw(snapshot_at(float(time)))
+        picture = view.map(snapshot_at(float(time)))
     assert (picture[150, 100:400:20] == BLUE).all()
 
 
@@ -85,7 +87,9 @@ def test_the_track_stays_on_the_map():
 def video(tmp_path_factory) -> Path:
     path = tmp_path_factory.mktemp("video") / "mission.webm"
     snapshots = (snapshot_at(float(time)) for time in range(SECONDS))
-    assert write_video(path, snapshots, WINDOW) == Video("mission.webm", (SECONDS - 1) / FPS)
+    assert write_video(path, snapshots, RoverScene(WINDOW)) == Video(
+        "mission.webm", (SECONDS - 1) / FPS
+    )
     return path
 
 
@@ -96,13 +100,19 @@ def test_the_file_holds_every_frame_and_the_last_for_longer(video):
     assert np.allclose(images[40][80, 160], (200, 0, 0), atol=25)
 
 
+def test_a_long_mission_is_shown_evenly_and_to_its_end():
+    assert list(evenly(300, 4)) == [0, 1, 2, 3]
+    assert list(evenly(3, 8)) == [1, 4, 7]
+    assert list(evenly(3, 0)) == []
+
+
 def test_a_failure_leaves_no_open_file(tmp_path):
     def snapshots():
         yield snapshot_at(0.0)
         raise ValueError("no more")
 
     with pytest.raises(ValueError, match="no more"):
-        write_video(tmp_path / "broken.webm", snapshots(), WINDOW)
+        write_video(tmp_path / "broken.webm", snapshots(), RoverScene(WINDOW))
 
 
 PIXEL = """new Promise((resolve, reject) => {

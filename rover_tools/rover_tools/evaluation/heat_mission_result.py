@@ -9,14 +9,13 @@ import numpy as np
 
 from burger_simulator.truth import Truth
 from burger_simulator.world.maze import Maze
-from rover_common.geometry import Pose
+from rover_common.geometry import Pose, compose_points
 from rover_common.types import GridMap
 from rover_heat.mission.chart import State
-from rover_heat.types import HeatSource
+from rover_heat.types import HeatOverlay, HeatSource
 from rover_tools.evaluation.heat_score import (
     early_ascent,
     explored,
-    in_world,
     pose_rmse,
     score_launches,
     score_sources,
@@ -34,7 +33,7 @@ class HeatRun:
     state: State
     reason: str
     interrupts: int  # stops because of tilt, as reported
-    sources: tuple[HeatSource, ...]  # as reported, in the map
+    overlay: HeatOverlay  # with the sources as reported, in the map
     grid: GridMap | None
     map_in_world: Pose  # the map's frame
     ticks: HeatTicks
@@ -61,7 +60,7 @@ def heat_mission_result(
     label: its parameters and variants in a word; time_limit [s]: within which it had to be done;
     stand_off [m]: where it stands before a source.
     """
-    sources = score_sources(maze, _places(run.sources, run.map_in_world))
+    sources = score_sources(maze, _places(run.overlay.sources, run.map_in_world))
     launches = score_launches(maze, run.truth.launches, stand_off)
     contacts = run.truth.contacts + run.truth.ramp_contacts
     ramp_done = None if maze.ramp is None else launches.on_ramp and run.truth.ramp_contacts == 0
@@ -128,7 +127,7 @@ def failed_heat_result(world: str, seed: int, label: str, error: str) -> Result:
 
 def _places(sources: Sequence[HeatSource], map_in_world: Pose) -> np.ndarray:
     places = np.array([(source.x, source.y) for source in sources], float).reshape(-1, 2)
-    return in_world(places, map_in_world)
+    return compose_points(map_in_world, places)
 
 
 def _rounded(value: float | None, digits: int = 3) -> float | None:

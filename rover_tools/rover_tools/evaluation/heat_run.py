@@ -43,7 +43,7 @@ def run_heat_mission(
         State(end.decision.state),
         end.decision.reason,
         end.decision.progress.interrupts,
-        end.overlay.sources,
+        end.overlay,
         end.grid,
         map_in_world,
         log.ticks(),

@@ -14,7 +14,7 @@ from scipy.spatial.distance import cdist
 from burger_simulator.truth import Launch, stands_on_flat
 from burger_simulator.world.free_space import distances_to_walls
 from burger_simulator.world.maze import HeatSource, Maze
-from rover_common.geometry import Pose, bearing_to
+from rover_common.geometry import Pose, bearing_to, compose_points
 from rover_common.map_encoding import EDGE
 from rover_common.types import GridMap
 from rover_heat.mission.chart import State
@@ -145,13 +145,7 @@ def occupied(grid: GridMap, map_in_world: Pose) -> Points:
     rows, cols = np.nonzero(grid.cells > EDGE)
     corner = np.array([grid.origin_x, grid.origin_y])
     middles = corner + (np.column_stack([cols, rows]) + 0.5) * grid.resolution
-    return in_world(middles, map_in_world)
-
-
-def in_world(points: NDArray[np.float64], frame: Pose) -> Points:
-    """Points (n, 2) [m] of a frame, which itself is given in the world."""
-    cos, sin = math.cos(frame.yaw), math.sin(frame.yaw)
-    return points @ np.array([(cos, sin), (-sin, cos)]) + (frame.x, frame.y)
+    return compose_points(map_in_world, middles)
 
 
 def _serves(launch: Launch, source: HeatSource, stand_off: float) -> bool:

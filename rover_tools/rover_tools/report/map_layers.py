@@ -10,10 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.map_encoding import EDGE, navigable_cells
-from rover_common.types import GridMap, RockTrack
-from rover_tools.report.mission_log import MissionLog, TrackPoint
-
-MARGIN = 4.0  # [m] around what is drawn
+from rover_common.types import GridMap
+from rover_tools.report.track import Point
 
 
 @dataclass(frozen=True)
@@ -22,6 +20,19 @@ class Layer:
 
     kind: str  # its class in the style sheet
     path: str  # the attribute `d`
+    title: str = ""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A symbol at a place."""
+
+    kind: str  # its class in the style sheet
+    shape: str  # circle or diamond
+    x: float  # [m]
+    y: float  # [m]
+    size: float  # [m] radius, or half a side
+    title: str
 
 
 @dataclass(frozen=True)
@@ -39,79 +50,48 @@ class Window:
 
 
 @dataclass(frozen=True)
-class MapDrawing:
-    """Everything on a mission's maps."""
+class Drawing:
+    """Everything on one map of a mission."""
 
     window: Window
-    known: tuple[Layer, ...]  # the map
-    compared: tuple[Layer, ...]  # the map against the truth; empty without a truth
-    track: tuple[Layer, ...]
-    start: TrackPoint | None
-    samples: tuple[tuple[float, float], ...]  # [m] true positions
-    rocks: tuple[RockTrack, ...]
+    cells: tuple[Layer, ...] = ()
+    lines: tuple[Layer, ...] = ()  # above the cells
+    track: tuple[Layer, ...] = ()
+    start: tuple[float, float] | None = None  # [m]
+    marks: tuple[Mark, ...] = ()  # above the track
+    radius: float = 1.6  # [m] of what marks a place of the track
+    transform: str = ""  # of all of it, into the window's frame
 
 
-def drawing_of(log: MissionLog) -> MapDrawing:
-    """Without a map, only the track."""
-    grid, truth, samples = log.grid, log.truth.navigable, log.truth.samples
-    return MapDrawing(
-        window_of(log),
-        () if grid is None else map_layers(grid),
-        () if grid is None or truth is None else comparison_layers(grid, truth),
-        track_layers(log.track),
-        log.track[0] if log.track else None,
-        () if samples is None else tuple((float(x), float(y)) for x, y in samples),
-        log.rocks,
-    )
-
-
-def window_of(log: MissionLog) -> Window:
-    """All known cells, all true ground and the whole track."""
-    xy = [np.array([(point.x, point.y) for point in log.track]).reshape(-1, 2)]
-    if log.grid is not None:
-        known = log.grid.cells >= 0
-        if log.truth.navigable is not None:
-            known = known | log.truth.navigable
-        rows, cols = np.nonzero(known)
-        corners = np.column_stack([cols, rows])
-        corner = (log.grid.origin_x, log.grid.origin_y)
-        xy += [corner + corners * log.grid.resolution]
-        xy += [corner + (corners + 1) * log.grid.resolution]
-    places = np.concatenate(xy)
+def window_around(places: NDArray[np.float64], margin: float) -> Window:
+    """All places (n, 2) [m] with a margin [m] around them."""
     if len(places) == 0:
         return Window(0.0, 0.0, 1.0, 1.0)
-    low, high = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
+    low, high = places.min(axis=0) - margin, places.max(axis=0) + margin
     return Window(*np.round((low[0], -high[1], *(high - low)), 2).tolist())
 
 
 def map_layers(grid: GridMap) -> tuple[Layer, ...]:
-    """What the rover knows."""
+    """What a map knows."""
     return (
         Layer("ground", cells_path(navigable_cells(grid.cells), grid)),
         Layer("obstacle", cells_path(grid.cells > EDGE, grid)),
     )
 
 
-def comparison_layers(grid: GridMap, truth: NDArray[np.bool_]) -> tuple[Layer, ...]:
-    """The map's navigable cells against the true ones, of the same shape."""
-    navigable = navigable_cells(grid.cells)
-    return (
-        Layer("right", cells_path(navigable & truth, grid)),
-        Layer("wrong", cells_path(navigable & ~truth, grid)),
-        Layer("missing", cells_path(truth & ~navigable, grid)),
-    )
+def track_layers(track: Sequence[Point], digits: int = 2) -> tuple[Layer, ...]:
+    """The track in the colours of the states; each line goes on to the next state's first point.
 
-
-def track_layers(track: Sequence[TrackPoint]) -> tuple[Layer, ...]:
-    """The track in the colours of the states; each line goes on to the next state's first point."""
+    digits: of its places [m].
+    """
     lines: dict[str, list[str]] = {}
     for before, point in pairwise(track):
         parts = lines.setdefault(before.state, [])
-        start, end = _at(before.x, before.y), _at(point.x, point.y)
+        start, end = _at(before.x, before.y, digits), _at(point.x, point.y, digits)
         if not parts or parts[-1] != start:
             parts += [f"M{start}L", start]
         parts += [end]
-    return tuple(Layer(state, " ".join(parts)) for state, parts in lines.items())
+    return tuple(Layer(state, " ".join(parts), state) for state, parts in lines.items())
 
 
 def cells_path(mask: NDArray[np.bool_], grid: GridMap) -> str:
@@ -129,5 +109,5 @@ def cells_path(mask: NDArray[np.bool_], grid: GridMap) -> str:
     )
 
 
-def _at(x: float, y: float) -> str:
-    return f"{round(x, 2):g} {round(-y, 2):g}"
+def _at(x: float, y: float, digits: int = 2) -> str:
+    return f"{round(x, digits):g} {round(-y, digits):g}"

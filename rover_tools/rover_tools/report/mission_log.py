@@ -1,20 +1,16 @@
-"""A mission over time: one point of the track a second, and every change of state."""
+"""The rover's mission over time: one point of the track a second, and every change of state."""
 
 from __future__ import annotations
 
-import csv
-import io
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
 
 from rover_common.geometry import Pose
 from rover_common.map_encoding import navigable_cells
 from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.results import Result, Truth
 from rover_tools.evaluation.scoring import score_map
-
-PERIOD = 1.0  # [s] between two points of the track
+from rover_tools.report.track import PERIOD, StateChange, TrackBuilder, csv_of, tilt_of
 
 
 @dataclass(frozen=True)
@@ -55,17 +51,6 @@ class TrackPoint:
 
 
 @dataclass(frozen=True)
-class StateChange:
-    """The mission enters a state."""
-
-    time: float  # [s]
-    state: str
-    reason: str
-    x: float  # [m]
-    y: float  # [m]
-
-
-@dataclass(frozen=True)
 class MissionLog:
     """All that a mission's report shows."""
 
@@ -84,57 +69,31 @@ class LogBuilder:
     def __init__(self, truth: Truth, period: float = PERIOD) -> None:
         """period [s]: between two points of the track."""
         self._truth = truth
-        self._period = period
-        self._track: list[TrackPoint] = []
-        self._changes: list[StateChange] = []
-        self._next = -math.inf  # [s] when a point is due
-        self._tilt = 0.0
-        self._last: tuple[Moment, Callable[[], GridMap | None]] | None = None
+        self._builder: TrackBuilder[TrackPoint] = TrackBuilder(period)
+        self._moment: Moment | None = None  # the last
 
     def add(self, moment: Moment, grid: Callable[[], GridMap | None]) -> None:
         """Add the next frame; `grid` gives the world map and is called only for a point."""
-        self._tilt = max(self._tilt, tilt_of(moment.pose))
-        if not self._changes or self._changes[-1].state != moment.state:
-            place = moment.pose
-            change = StateChange(moment.time, moment.state, moment.reason, place.x, place.y)
-            self._changes.append(change)
-        self._last = moment, grid
-        if moment.time >= self._next - 1e-6:
-            self._next = self._period * (math.floor(moment.time / self._period + 1e-6) + 1)
-            self._add_point()
+        self._moment = moment
+        self._builder.add(
+            moment,
+            tilt_of(moment.pose),
+            lambda tilt: _point_of(moment, tilt, grid(), self._truth),
+        )
 
     def log(
         self, title: str, grid: GridMap | None, rocks: tuple[RockTrack, ...], result: Result
     ) -> MissionLog:
         """The whole log; its track ends with the last frame and the last map."""
-        if self._last is not None:
-            moment = self._last[0]
-            self._last = moment, lambda: grid
-            if self._track[-1].time == moment.time:
-                self._tilt = self._track.pop().tilt
-            self._add_point()
-        track, changes = tuple(self._track), tuple(self._changes)
-        return MissionLog(title, track, changes, grid, rocks, self._truth, result)
-
-    def _add_point(self) -> None:
-        assert self._last is not None
-        moment, grid = self._last
-        self._track.append(_point_of(moment, self._tilt, grid(), self._truth))
-        self._tilt = 0.0
-
-
-def tilt_of(pose: Pose) -> float:
-    """The angle [rad] between the body's z axis and the vertical."""
-    return math.acos(min(1.0, math.cos(pose.roll) * math.cos(pose.pitch)))
+        moment, builder = self._moment, self._builder
+        if moment is not None:
+            builder.end(lambda tilt: _point_of(moment, tilt, grid, self._truth))
+        return MissionLog(title, builder.track, builder.changes, grid, rocks, self._truth, result)
 
 
 def track_csv(track: Sequence[TrackPoint]) -> str:
     """The content of track.csv; a value that is not known is an empty field."""
-    file = io.StringIO()
-    writer = csv.DictWriter(file, [each.name for each in fields(TrackPoint)], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(asdict(point) for point in track)
-    return file.getvalue()
+    return csv_of(TrackPoint, track)
 
 
 def _point_of(moment: Moment, tilt: float, grid: GridMap | None, truth: Truth) -> TrackPoint:

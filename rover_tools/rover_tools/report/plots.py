@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from matplotlib.ticker import MaxNLocator
 
-from rover_tools.report.mission_log import StateChange, TrackPoint
+from rover_tools.report.mission_log import TrackPoint
+from rover_tools.report.track import StateChange
 
 WIDTH, HEIGHT = 1000.0, 100.0
 
@@ -52,13 +53,13 @@ class Span:
 
 
 def plots_of(track: Sequence[TrackPoint]) -> list[Plot]:
-    """Speed, tilt, what is mapped and explored, samples, distance home; none without a track."""
+    """The rover's, over its mission; none without a track."""
     if not track:
         return []
     times = [point.time for point in track]
 
     def plot(title: str, digits: int, **lines: Sequence[float | None]) -> Plot:
-        return _plot(title, digits, times, lines)
+        return plot_of(title, digits, times, lines)
 
     plots = [
         plot("Speed [m/s]", 2, speed=[p.speed for p in track]),
@@ -75,6 +76,31 @@ def plots_of(track: Sequence[TrackPoint]) -> list[Plot]:
     plots.append(plot("Samples on board", 0, samples=[float(p.samples) for p in track]))
     plots.append(plot("Distance home [m]", 1, home=[p.home_distance for p in track]))
     return plots
+
+
+def plot_of(
+    title: str,
+    digits: int,
+    times: Sequence[float],
+    values: dict[str, Sequence[float | None]],
+    least: float = 1.0,
+) -> Plot:
+    """Lines by their names over times [s]; the axis reaches from 0 to `least` at least."""
+    known = [value for line in values.values() for value in line if value is not None]
+    ticks = MaxNLocator(4, steps=[1, 2, 5, 10]).tick_values(
+        min([0.0, *known]), max([least, *known])
+    )
+    low, high = float(ticks[0]), float(ticks[-1])
+
+    def height(value: float) -> float:
+        return 100.0 * (value - low) / (high - low)
+
+    lines = tuple(
+        Line(kind, _points(times, [None if v is None else height(v) for v in line]),
+             tuple(None if v is None else round(v, 3) for v in line))
+        for kind, line in values.items()
+    )  # fmt: skip
+    return Plot(title, digits, lines, tuple(Tick(height(v), f"{v:g}") for v in ticks))
 
 
 def time_ticks(duration: float) -> tuple[Tick, ...]:
@@ -104,24 +130,6 @@ def seconds_by_state(spans: Sequence[Span]) -> dict[str, float]:
     for span in spans:
         seconds[span.state] = seconds.get(span.state, 0.0) + span.seconds
     return dict(sorted(seconds.items(), key=lambda item: -item[1]))
-
-
-def _plot(
-    title: str, digits: int, times: Sequence[float], values: dict[str, Sequence[float | None]]
-) -> Plot:
-    known = [value for line in values.values() for value in line if value is not None]
-    ticks = MaxNLocator(4, steps=[1, 2, 5, 10]).tick_values(min(0.0, *known), max(1.0, *known))
-    low, high = float(ticks[0]), float(ticks[-1])
-
-    def height(value: float) -> float:
-        return 100.0 * (value - low) / (high - low)
-
-    lines = tuple(
-        Line(kind, _points(times, [None if v is None else height(v) for v in line]),
-             tuple(None if v is None else round(v, 3) for v in line))
-        for kind, line in values.items()
-    )  # fmt: skip
-    return Plot(title, digits, lines, tuple(Tick(height(v), f"{v:g}") for v in ticks))
 
 
 def _points(times: Sequence[float], heights: Sequence[float | None]) -> str:

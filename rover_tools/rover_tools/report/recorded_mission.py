@@ -23,6 +23,7 @@ from rover_recorder.reader import Recording, open_recording
 from rover_tools.evaluation.results import Result, Truth, score
 from rover_tools.evaluation.scoring import score_map
 from rover_tools.report.mission_log import LogBuilder, MissionLog, Moment
+from rover_tools.report.video.mission_video import evenly
 from rover_tools.report.video.snapshot import Image, Snapshot
 
 VISION = f"{topics.VISION_IMAGE}/compressed"
@@ -100,8 +101,8 @@ class RecordedMission:
 
     def snapshots(self, most: int) -> Iterator[Snapshot]:
         """At most so many, evenly over the mission, and the last moment."""
-        step = -(-len(self.moments) // most)
-        return (moment.snapshot(self.truth) for moment in self.moments[::-1][::step][::-1])
+        chosen = evenly(most, len(self.moments))
+        return (self.moments[number].snapshot(self.truth) for number in chosen)
 
 
 def read_mission(path: Path, truth: Truth) -> RecordedMission:

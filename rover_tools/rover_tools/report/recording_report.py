@@ -5,15 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from rover_tools.evaluation.results import Result, Truth
-from rover_tools.report.map_layers import window_of
 from rover_tools.report.mission_log import track_csv
 from rover_tools.report.mission_page import mission_page
 from rover_tools.report.recorded_mission import read_mission
-from rover_tools.report.video.mission_video import VIDEO, write_video
+from rover_tools.report.rover_drawing import window_of
+from rover_tools.report.video.mission_video import MOST_FRAMES, VIDEO, write_video
+from rover_tools.report.video.rover_scene import RoverScene
 
 TRACK = "track.csv"
 REPORT = "report.html"
-MOST_FRAMES = 300  # of a video: a longer mission is shown faster, and costs no more
 
 
 def write_report(
@@ -27,6 +27,7 @@ def write_report(
     result = result or mission.result()
     log = mission.log(title, result)
     (folder / TRACK).write_text(track_csv(log.track))
-    video = write_video(folder / VIDEO, mission.snapshots(MOST_FRAMES), window_of(log))
+    scene = RoverScene(window_of(log))
+    video = write_video(folder / VIDEO, mission.snapshots(MOST_FRAMES), scene)
     (folder / REPORT).write_text(mission_page(log, video))
     return result

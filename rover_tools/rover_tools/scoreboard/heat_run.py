@@ -8,9 +8,11 @@ from pathlib import Path
 
 import cv2
 
-from rover_tools.evaluation.heat_loop import HeatStep
+from burger_simulator.world.maze import Maze
+from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
 from rover_tools.evaluation.heat_mission_result import (
     HEAT_RESULT_KEYS,
+    HeatRun,
     failed_heat_result,
     heat_mission_result,
 )
@@ -18,49 +20,48 @@ from rover_tools.evaluation.heat_run import run_heat_mission
 from rover_tools.evaluation.results import Result
 from rover_tools.output import write_result
 from rover_tools.progress import Progress
+from rover_tools.report.heat_files import write_heat_files
+from rover_tools.report.heat_log import HeatLog, heat_track_csv
+from rover_tools.report.heat_page import heat_map, heat_page
+from rover_tools.report.heat_steps import StepWatch
 from rover_tools.scoreboard.heat_job import HeatJob
 from rover_tools.scoreboard.missions import CompletedMission
 
-MAZE = "maze.yaml"
 HEAT_ROW_KEYS = (*HEAT_RESULT_KEYS, "times_real_time")
+Watch = Callable[[HeatLoop, HeatStep], object]
 
 
-def run_heat_job(
-    job: HeatJob, watch: Callable[[HeatStep], object] = lambda _: None
-) -> CompletedMission:
-    """Run it to its end; the same job gives the same result, but for the time that it takes.
-
-    `watch` is called after every tick.
-    """
+def run_heat_job(job: HeatJob) -> CompletedMission:
+    """Run it to its end; the same job gives the same result, but for the time that it takes."""
     cv2.setNumThreads(1)  # each worker has one core
-    start, cpu = time.monotonic(), time.process_time()
-    maze, config = job.world(), job.setup.config
-    run = run_heat_mission(maze, job.seed, job.setup, lambda _, step: watch(step))
-    cpu = time.process_time() - cpu
-    result = heat_mission_result(
-        maze, job.seed, job.setup.label, run, time_limit=config.time_limit,
-        stand_off=config.stand_off, wall_seconds=time.monotonic() - start,
-    )  # fmt: skip
-    result["times_real_time"] = round(run.time / cpu, 1)
-    return CompletedMission(result, {})
+    watch = StepWatch(job.world().start)
+    log = _run(job, watch, watch)
+    files = {
+        ".svg": heat_map(log).encode(),
+        ".csv": heat_track_csv(log.track).encode(),
+        ".html": heat_page(log).encode(),
+    }
+    return CompletedMission(log.result, files)
 
 
 def complete(job: HeatJob, folder: Path) -> Result:
     """Run it here with its progress shown, and write the result folder; returns the result."""
-    job.world().save(folder / MAZE)
+    watch = StepWatch(job.world().start)
     with Progress(job.setup.config.time_limit, "s") as progress:
 
-        def show(step: HeatStep) -> None:
+        def show(loop: HeatLoop, step: HeatStep) -> None:
+            watch(loop, step)
             known = step.decision.progress
             text = (
-                f"{step.decision.state.name:16} {known.sources_delivered} delivered of "
+                f"{step.decision.state.name:16} {known.sources_delivered} served of "
                 f"{known.sources_known} known"
             )
             progress.show(known.elapsed, text)
 
-        completed = run_heat_job(job, show)
-    write_result(folder, completed.result)
-    return completed.result
+        log = _run(job, watch, show)
+    write_result(folder, log.result)
+    write_heat_files(folder, log, watch.snapshots)
+    return log.result
 
 
 def failed_heat_row(job: HeatJob, error: BaseException) -> Result:
@@ -68,3 +69,26 @@ def failed_heat_row(job: HeatJob, error: BaseException) -> Result:
     why = f"{type(error).__name__}: {error}"
     row = failed_heat_result(job.world_name, job.seed, job.setup.label, why)
     return row | {"times_real_time": None}
+
+
+def _run(job: HeatJob, watch: StepWatch, on_step: Watch) -> HeatLog:
+    """Run it; returns what its report shows."""
+    start, cpu = time.monotonic(), time.process_time()
+    maze = job.world()
+    run = run_heat_mission(maze, job.seed, job.setup, on_step)
+    cpu = time.process_time() - cpu
+    result = _result(job, maze, run, time.monotonic() - start)
+    result["times_real_time"] = round(run.time / cpu, 1)
+    watch.end(run.grid, run.overlay)
+    return watch.log.log(
+        f"{maze.name}, {job.setup.label}", run.grid, watch.with_faces(run.overlay), result, maze,
+        run.map_in_world, run.truth.launches,
+    )  # fmt: skip
+
+
+def _result(job: HeatJob, maze: Maze, run: HeatRun, seconds: float) -> Result:
+    config = job.setup.config
+    return heat_mission_result(
+        maze, job.seed, job.setup.label, run, time_limit=config.time_limit,
+        stand_off=config.stand_off, wall_seconds=seconds,
+    )  # fmt: skip

@@ -1,74 +1,86 @@
-"""The frames of a mission's video: camera and vision, figures below them, the map beside."""
+"""The frames of a mission's video: pictures, figures below them, the map beside."""
 
 from __future__ import annotations
+
+import textwrap
+from typing import Generic, Protocol, TypeVar
 
 import cv2
 import numpy as np
 
-from rover_tools.report.map_layers import Window
-from rover_tools.report.video.colours import (
-    INK,
-    MUTED,
-    PAGE,
-    PANEL,
-    Colour,
-    colour_of,
-)
-from rover_tools.report.video.map_view import MapView
-from rover_tools.report.video.snapshot import Image, Snapshot
+from rover_tools.report.track import Moment
+from rover_tools.report.video.colours import INK, MUTED, PANEL, Colour, colour_of
+from rover_tools.report.video.snapshot import Image
 
 WIDTH, HEIGHT = 960, 360  # [px]
-CAMERA = (320, 160)  # [px] width, height of a camera image
+PANELS = (640, 160)  # [px] width, height of the pictures
+MAP = (320, 360)  # [px]
 BAND = 320, 344  # [px] from the top: the states so far
 LEFT, RIGHT = 16, 624  # [px] of the figures' columns
+COLUMNS = 6
+CLOCK = 52  # [px] of the mission's time
+LETTER = 8  # [px] of most letters of the reason
 
 
-class Composition:
+class HasMoment(Protocol):
+    """A mission at one moment."""
+
+    @property
+    def moment(self) -> Moment: ...
+
+
+S = TypeVar("S", bound=HasMoment)
+In = TypeVar("In", bound=HasMoment, contravariant=True)
+
+
+class Scene(Protocol[In]):
+    """What is shown of one kind of missions; it takes one snapshot after another."""
+
+    def panels(self, snapshot: In) -> Image:
+        """The pictures beside each other, (160, 640, 3)."""
+
+    def map(self, snapshot: In) -> Image:
+        """(360, 320, 3)"""
+
+    def figures(self, snapshot: In) -> list[tuple[str, str]]:
+        """At most COLUMNS headings and values."""
+
+
+class Composition(Generic[S]):
     """Makes one frame after another of one mission."""
 
-    def __init__(self, window: Window) -> None:
-        """window: the part of the map frame that the map shows."""
-        self._map = MapView(window, WIDTH - 2 * CAMERA[0], HEIGHT)
+    def __init__(self, scene: Scene[S]) -> None:
+        self._scene = scene
         self._font = cv2.FontFace("sans")
         self._background = np.full((HEIGHT, WIDTH, 3), PANEL, np.uint8)
         self._states: list[tuple[float, str]] = []  # times [s] since when
 
-    def frame(self, snapshot: Snapshot) -> Image:
+    def frame(self, snapshot: S) -> Image:
         """The next frame (HEIGHT, WIDTH, 3)."""
         picture = self._background.copy()
-        width, height = CAMERA
-        for left, image in ((0, snapshot.camera), (width, snapshot.vision)):
-            place = picture[:height, left : left + width]
-            place[:] = PAGE if image is None else _fitted(image)
-        picture[:, 2 * width :] = self._map.draw(snapshot)
+        width, height = PANELS
+        picture[:height, :width] = self._scene.panels(snapshot)
+        picture[:, width:] = self._scene.map(snapshot)
         self._describe(picture, snapshot)
-        self._draw_band(picture, snapshot)
+        self._draw_band(picture, snapshot.moment)
         return picture
 
-    def _describe(self, picture: Image, snapshot: Snapshot) -> None:
+    def _describe(self, picture: Image, snapshot: S) -> None:
         moment = snapshot.moment
         cv2.rectangle(picture, (LEFT, 184), (LEFT + 16, 200), colour_of(moment.state), cv2.FILLED)
         end = self._write(picture, moment.state, LEFT + 26, 200, 22, 600)
-        self._write(picture, moment.reason, end + 14, 200, 16, 400, MUTED)
+        room = RIGHT - CLOCK - end - 28
+        reason = textwrap.shorten(moment.reason, max(1, room // LETTER), placeholder="…")
+        self._write(picture, reason, end + 14, 200, 16, 400, MUTED)
         clock = f"{int(moment.time) // 60}:{int(moment.time) % 60:02d}"
-        self._write(picture, clock, RIGHT - 52, 200, 22, 600)
-        figures = [
-            ("samples", f"{moment.samples} of {snapshot.samples_total}"),
-            ("speed", f"{moment.speed:.1f} m/s"),
-            ("home", f"{moment.home_distance:.0f} m"),
-            ("driven", f"{moment.distance:.0f} m"),
-        ]
-        if snapshot.score is not None:
-            mapped, fidelity = snapshot.score
-            figures += [("mapped", f"{mapped:.1f} %"), ("fidelity", f"{fidelity:.1f} %")]
-        for column, (heading, value) in enumerate(figures):
-            x = LEFT + column * (RIGHT - LEFT) // 6
+        self._write(picture, clock, RIGHT - CLOCK, 200, 22, 600)
+        for column, (heading, value) in enumerate(self._scene.figures(snapshot)):
+            x = LEFT + column * (RIGHT - LEFT) // COLUMNS
             self._write(picture, heading, x, 246, 13, 400, MUTED)
             self._write(picture, value, x, 272, 19, 600)
 
-    def _draw_band(self, picture: Image, snapshot: Snapshot) -> None:
+    def _draw_band(self, picture: Image, moment: Moment) -> None:
         """The states so far, over all of the width."""
-        moment = snapshot.moment
         if not self._states or self._states[-1][1] != moment.state:
             self._states.append((moment.time, moment.state))
         first = self._states[0][0]
@@ -91,9 +103,3 @@ class Composition:
         """Text with its baseline at y [px]; where it ends [px]."""
         end, _ = cv2.putText(picture, text, (x, y), colour, self._font, size, weight)
         return int(end[0])
-
-
-def _fitted(image: Image) -> Image:
-    if image.shape[1::-1] == CAMERA:
-        return image
-    return cv2.resize(image, CAMERA, interpolation=cv2.INTER_AREA).astype(np.uint8)

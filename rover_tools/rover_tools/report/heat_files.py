@@ -1,0 +1,33 @@
+"""What a heat mission leaves to look at: maps, track.csv, the video, and report.html."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rover_tools.evaluation.map_files import save_map_server_pair
+from rover_tools.report.heat_drawing import window_of
+from rover_tools.report.heat_log import HeatLog, heat_track_csv
+from rover_tools.report.heat_page import heat_map, heat_maze, heat_page
+from rover_tools.report.recording_report import REPORT, TRACK
+from rover_tools.report.video.heat_scene import HeatScene, HeatSnapshot
+from rover_tools.report.video.mission_video import MOST_FRAMES, VIDEO, evenly, write_video
+
+MAZE = "maze.yaml"
+
+
+def write_heat_files(folder: Path, log: HeatLog, snapshots: Sequence[HeatSnapshot]) -> None:
+    """Write them into the folder; the maze as well, where it is known."""
+    if log.maze is not None:
+        log.maze.save(folder / MAZE)
+    if log.grid is not None:
+        save_map_server_pair(log.grid, folder / "map")
+    (folder / "map.svg").write_text(heat_map(log))
+    maze = heat_maze(log)
+    if maze is not None:
+        (folder / "maze.svg").write_text(maze)
+    (folder / TRACK).write_text(heat_track_csv(log.track))
+    scene = HeatScene(window_of(log), log.maze, log.map_in_world)
+    chosen = (snapshots[number] for number in evenly(MOST_FRAMES, len(snapshots)))
+    video = write_video(folder / VIDEO, chosen, scene)
+    (folder / REPORT).write_text(heat_page(log, video))
