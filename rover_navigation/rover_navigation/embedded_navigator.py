@@ -82,8 +82,10 @@ class EmbeddedNavigator:
     def _refusal(self, goal: EmbeddedGoal) -> str:
         """Why a goal cannot be driven to; empty when it can."""
         here = self._localizer.buffer.latest()
-        if here is None or not self.is_ready:
+        if here is None or not self._localizer.is_ready:
             return "there is no pose in a map"
+        if self._localizer.is_lost:
+            return ""
         ground = self._ground(here)
         reason = ground.refusal(goal.pose, goal.tolerance)
         if not reason and len(ground.path(here, goal.pose, goal.tolerance)) == 0:
@@ -95,7 +97,7 @@ class EmbeddedNavigator:
 
         It replaces the one before. What was a wall on one of those maps is not blocked for that.
         """
-        if self._hazards.set(hazards, self._given):
+        if self._hazards.set(hazards, *self._given):
             self._run.replan()
 
     def pose_at(self, stamp: int) -> Pose | None:

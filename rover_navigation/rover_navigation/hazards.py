@@ -20,7 +20,7 @@ class Hazards:
     def __init__(self) -> None:
         self._centers = np.empty((2, 0))  # [m] x, y of their cells
 
-    def set(self, hazards: GridMap, own: tuple[GridMap, ...]) -> bool:
+    def set(self, hazards: GridMap, *own: GridMap) -> bool:
         """Replace all of them; own: the robot's maps without them. Whether something changed."""
         centers = np.stack(geometry_of(hazards).center_of(*np.nonzero(_occupied(hazards))))
         for grid in own:
