@@ -65,16 +65,10 @@ def heat_mission_result(
     contacts = run.truth.contacts + run.truth.ramp_contacts
     ramp_done = None if maze.ramp is None else launches.on_ramp and run.truth.ramp_contacts == 0
     done, total = run.state is State.DONE, len(maze.sources)
-    success = (
-        sources.found == launches.delivered == total
-        and sources.false == 0
-        and ramp_done is not False
-        and contacts == 0
-        and done
-        and run.time < time_limit
-    )
+    served = sources.found == launches.delivered == total and sources.false == 0
+    in_time = done and run.time < time_limit
     return {
-        "success": success,
+        "success": served and ramp_done is not False and contacts == 0 and in_time,
         "done": done,
         "reason": run.reason,
         "time": round(run.time, 1),
