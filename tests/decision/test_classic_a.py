@@ -223,6 +223,8 @@ class TestHome:
         back = rules.homeward(ground(few), 1.0, 0.2)
         assert (ahead.throttle, ahead.steering_angle) == (0.3, pytest.approx(0.2))
         assert (back.throttle, back.steering_angle) == (-2.0, pytest.approx(-0.2))
+        rolls_back = rules.homeward(ground(), -0.5, 0.2)
+        assert (rolls_back.throttle, rolls_back.steering_angle) == (0.3, pytest.approx(-0.2))
 
     def test_a_rock_on_the_way_is_still_picked_up(self):
         mission = driving("classic_a", complete_at=0.5)

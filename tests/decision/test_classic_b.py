@@ -83,6 +83,12 @@ class TestRocks:
         assert (second.brake, second.throttle) == (0.0, 0.0)
         assert second.steering_angle == pytest.approx(math.atan2(0.5, 4.0))
 
+    def test_it_creeps_on_when_the_rock_lies_ahead_and_turns_in_place_when_aside(self):
+        ahead, aside = rules.to_rock(0.1, 0.3), rules.to_rock(-0.5, 0.0)
+        assert (ahead.throttle, ahead.steering_angle) == (0.2, 0.1)
+        assert rules.to_rock(0.1, 0.6).throttle == 0.0
+        assert (aside.throttle, aside.brake, aside.steering_angle) == (0.0, 0.0, -HARD)
+
     def test_a_rock_out_of_sight_is_steered_to_as_before(self):
         mission = driving("classic_b")
         mission.tick(rock=rock_at((4.0, 0.5)))

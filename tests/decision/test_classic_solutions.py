@@ -50,13 +50,14 @@ class TestGround:
 
 
 class TestBreadcrumbs:
-    def test_one_every_twelve_frames_in_whole_metres(self):
+    def test_one_every_twelve_frames_and_a_metre_apart(self):
         made = BreadcrumbTrail()
-        for step in range(FRAMES + 1):
+        for step in range(2 * FRAMES + 1):
             made.add(Pose(10.0 + step / 2, 5.7, 0.0))
-        assert made.next == (16, 5)
-        made.follow(Pose(16.2, 5.0, 0.0))
-        assert made.next == (10, 5)
+        assert made.next == (22.0, 5.7)
+        made.follow(Pose(21.8, 5.0, 0.0))
+        assert made.next == (16.0, 5.7)
+        assert trail((0, 0), (0.9, 0), (5, 0), (5.5, 0)).next == (5, 0)
 
     def test_reversed_and_each_within_two_metres(self):
         made = trail((0, 0), (5, 0), (10, 0))
@@ -68,13 +69,13 @@ class TestBreadcrumbs:
         made.follow(Pose(0.0, 0.0, 0.0))
         assert made.next == (0, 0)
 
-    def test_loops_are_cut_out(self):
-        made = trail((0, 0), (5, 0), (10, 0), (10, 5), (5, 2), (0, 5))
-        made.follow(Pose(0.0, 5.0, 0.0))
-        assert made.next == (5, 0)
-        apart = trail((0, 0), (5, 0), (10, 0), (10, 5), (5, 3))
-        apart.follow(Pose(5.0, 3.0, 0.0))
-        assert apart.next == (10, 5)
+    @pytest.mark.parametrize(("aside", "next_place"), [(2.9, (5, 0)), (3.1, (10, 3.1))])
+    def test_loops_are_cut_out(self, aside, next_place):
+        """A dead end, driven into and out of along its other wall."""
+        into = [(x, 0) for x in range(0, 21, 5)]
+        made = trail(*into, *((x, aside) for x in range(20, 4, -5)))
+        made.follow(Pose(5.0, aside, 0.0))
+        assert made.next == next_place
 
 
 class TestCompletion:

@@ -1,4 +1,4 @@
-"""Breadcrumbs in whole metres, and the way back along them."""
+"""Breadcrumbs, and the way back along them."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ import math
 from rover_common.geometry import Pose
 
 FRAMES = 12  # from one breadcrumb to the next
+SPACING = 1.0  # [m] at least
 SAME_PLACE = 3.0  # [m] less than the corridors are wide, where a rover returns along its other wall
+LOOP = 6.0  # [m] of trail at least; less is only a bend
 REACHED = 2.0  # [m] from a breadcrumb
 
-Place = tuple[int, int]  # [m]
+Place = tuple[float, float]  # [m] map frame
 
 
 class BreadcrumbTrail:
@@ -26,15 +28,19 @@ class BreadcrumbTrail:
     def add(self, pose: Pose) -> None:
         """Once per frame on the way out."""
         if self._count % FRAMES == 0:
-            self._drop((math.floor(pose.x), math.floor(pose.y)))
+            self._drop((pose.x, pose.y))
         self._count += 1
 
     def _drop(self, place: Place) -> None:
-        for index, earlier in enumerate(self._breadcrumbs):
-            if math.dist(earlier, place) < SAME_PLACE:
-                del self._breadcrumbs[index + 1 :]
-                return
-        self._breadcrumbs.append(place)
+        kept = self._breadcrumbs
+        if kept and math.dist(kept[-1], place) < SPACING:
+            return
+        length, trail = 0.0, [*kept, place]
+        for index in range(len(kept) - 1, -1, -1):  # from here back to the start
+            length += math.dist(trail[index], trail[index + 1])
+            if length > LOOP and math.dist(trail[index], place) < SAME_PLACE:
+                del kept[index + 1 :]
+        kept.append(place)
 
     def follow(self, pose: Pose) -> None:
         """Once per frame on the way home: forget what is reached; the start stays."""

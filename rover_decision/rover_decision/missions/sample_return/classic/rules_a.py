@@ -8,7 +8,6 @@ from rover_common.types import Command, PolarArray
 from rover_decision.missions.sample_return.classic.commands import (
     HARD,
     Pace,
-    clipped,
     drive,
     reverse,
 )
@@ -70,7 +69,11 @@ def push() -> Command:
 
 
 def homeward(ground: Ground, speed: float, bearing: float) -> Command:
-    """To a bearing [rad]; without ground ahead back, with the opposite steering."""
+    """To a bearing [rad]; without ground ahead back, with the opposite steering.
+
+    A rover that rolls back from a slope steers the opposite way as well: else it would come back to
+    the slope on the arc that it rolled back on.
+    """
     if ground.cells < STOP_FORWARD:
-        return reverse(BACK_OFF, -clipped(bearing))
-    return drive(speed, bearing, PACE)
+        return reverse(BACK_OFF, -bearing)
+    return drive(speed, bearing if speed >= 0 else -bearing, PACE)

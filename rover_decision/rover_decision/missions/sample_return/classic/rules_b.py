@@ -12,7 +12,6 @@ from rover_common.types import Command, PolarArray
 from rover_decision.missions.sample_return.classic.commands import (
     HARD,
     Pace,
-    clipped,
     coast,
     drive,
     reverse,
@@ -42,6 +41,7 @@ class Manner:
 EXPLORING = Manner(Pace(throttle=0.2, top_speed=1.5), math.radians(10.0))
 OUT_OF_CIRCLE = Manner(EXPLORING.pace, 0.0)
 HOMEWARD = Manner(EXPLORING.pace, 0.0)
+ROCK_PACE = Pace(throttle=0.2, top_speed=0.5)
 DRIVE_OUT = Manner(Pace(throttle=1.0, top_speed=2.0), 0.0)
 BACK_OUT = 1.0  # throttle
 BACK_UNTIL, BRAKE_UNTIL, TURN_UNTIL, MANOEUVRE = 6.0, 7.0, 8.0, 13.0  # [s]
@@ -142,9 +142,12 @@ def wide_side(ground: Ground) -> float:
     return HARD if left > LEFT_RIGHT_RATIO * right else -HARD
 
 
-def to_rock(steering: float) -> Command:
-    """Roll on, steered to the rock [rad]."""
-    return coast(clipped(steering))
+def to_rock(bearing: float, speed: float) -> Command:
+    """Roll on, steered to the rock [rad]; slowly on if that has nearly come to an end.
+
+    A rover that stands turns to it in place first.
+    """
+    return coast(bearing) if abs(bearing) >= HARD else drive(speed, bearing, ROCK_PACE)
 
 
 def unstuck(view: View, speed: float, since: float) -> Command:

@@ -8,7 +8,7 @@ from rover_common.geometry import Pose, distance_between
 from rover_common.types import Command
 from rover_decision.missions.sample_return.chart import Event, State
 from rover_decision.missions.sample_return.classic import rules_b as rules
-from rover_decision.missions.sample_return.classic.commands import stop
+from rover_decision.missions.sample_return.classic.commands import coast, stop
 from rover_decision.missions.sample_return.classic.ground import Ground
 from rover_decision.missions.sample_return.classic.homing import HOME_RADIUS, Homing
 from rover_decision.missions.sample_return.classic.memory_b import Occasions, TravelCheck
@@ -154,8 +154,9 @@ class RockApproachB(DrivingB):
         if tick.since == 0.0:
             return stop(), "sees a rock: brakes"
         bearing = rules.nearest_rock(tick.frame.rock)
-        held = self._memory.steering
-        return rules.to_rock(held if bearing is None else bearing), "rolls to the rock"
+        if bearing is None:
+            return coast(self._memory.steering), "rolls to where the rock was"
+        return rules.to_rock(bearing, tick.speed), "rolls to the rock"
 
 
 class StuckB(DrivingB):
