@@ -11,10 +11,12 @@ from burger_simulator.truth import Launch, Truth
 from burger_simulator.world.maze import HeatSource, Maze, Ramp, Wall
 from rover_common.geometry import Pose
 from rover_common.types import GridMap
+from rover_heat.config import HeatConfig
 from rover_heat.mission.chart import State
 from rover_heat.types import HeatOverlay
 from rover_heat.types import HeatSource as Reported
 from rover_tools.evaluation.heat_mission_result import HeatRun, heat_mission_result
+from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.evaluation.heat_ticks import START_TIME, HeatTicks, TickLog
 
 NORTH = math.pi / 2
@@ -68,9 +70,8 @@ def run_of(**changes) -> HeatRun:
 
 
 def result_of(maze: Maze = MAZE, time_limit: float = 1200.0, **changes) -> dict:
-    return heat_mission_result(
-        maze, 1, "heat", run_of(**changes), time_limit=time_limit, stand_off=0.30, wall_seconds=9.0
-    )
+    setup = HeatSetup(config=HeatConfig(time_limit=time_limit))
+    return heat_mission_result(maze, 1, setup, run_of(**changes), 9.0)
 
 
 def map_of(cells: np.ndarray) -> GridMap:

@@ -22,6 +22,7 @@ from rover_tools.evaluation.heat_score import (
     score_walls,
     stop_seconds,
 )
+from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.evaluation.heat_ticks import START_TIME, HeatTicks
 from rover_tools.evaluation.results import Result
 
@@ -46,29 +47,24 @@ class HeatRun:
 
 
 def heat_mission_result(
-    maze: Maze,
-    seed: int,
-    label: str,
-    run: HeatRun,
-    *,
-    time_limit: float,
-    stand_off: float,
-    wall_seconds: float,
+    maze: Maze, seed: int, setup: HeatSetup, run: HeatRun, wall_seconds: float
 ) -> Result:
-    """The result of one mission; `success` asks for all that a mission is for.
-
-    label: its parameters and variants in a word; time_limit [s]: within which it had to be done;
-    stand_off [m]: where it stands before a source.
-    """
+    """The result of one mission; `success` asks for all that a mission is for."""
     sources = score_sources(maze, _places(run.overlay.sources, run.map_in_world))
-    launches = score_launches(maze, run.truth.launches, stand_off)
+    launches = score_launches(maze, run.truth.launches, setup.config.stand_off)
     contacts = run.truth.contacts + run.truth.ramp_contacts
     ramp_done = None if maze.ramp is None else launches.on_ramp and run.truth.ramp_contacts == 0
     done, total = run.state is State.DONE, len(maze.sources)
-    served = sources.found == launches.delivered == total and sources.false == 0
-    in_time = done and run.time < time_limit
+    success = (
+        sources.found == launches.delivered == total
+        and sources.false == 0
+        and ramp_done is not False
+        and contacts == 0
+        and done
+        and run.time < setup.config.time_limit
+    )
     return {
-        "success": served and ramp_done is not False and contacts == 0 and in_time,
+        "success": success,
         "done": done,
         "reason": run.reason,
         "time": round(run.time, 1),
@@ -84,7 +80,7 @@ def heat_mission_result(
         **_measured(maze, run),
         "world": maze.name,
         "seed": seed,
-        "parameters": label,
+        "parameters": setup.label,
         "wall_seconds": round(wall_seconds, 1),
     }
 

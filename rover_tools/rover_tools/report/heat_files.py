@@ -27,7 +27,9 @@ def write_heat_files(folder: Path, log: HeatLog, snapshots: Sequence[HeatSnapsho
     if maze is not None:
         (folder / "maze.svg").write_text(maze)
     (folder / TRACK).write_text(heat_track_csv(log.track))
-    scene = HeatScene(window_of(log), log.maze, log.map_in_world)
-    chosen = (snapshots[number] for number in evenly(MOST_FRAMES, len(snapshots)))
-    video = write_video(folder / VIDEO, chosen, scene)
+    video = None
+    if snapshots:
+        scene = HeatScene(window_of(log), log.maze, log.map_in_world)
+        chosen = (snapshots[number] for number in evenly(MOST_FRAMES, len(snapshots)))
+        video = write_video(folder / VIDEO, chosen, scene)
     (folder / REPORT).write_text(heat_page(log, video))

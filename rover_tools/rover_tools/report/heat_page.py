@@ -93,7 +93,7 @@ def heat_plots(track: tuple[HeatTrackPoint, ...]) -> list[Plot]:
         plot_of("Speed [m/s]", 2, times, {"speed": [p.speed for p in track]}, 0.2),
         plot_of("Largest tilt [°]", 1, times, {"tilt": [math.degrees(p.tilt) for p in track]}),
         plot_of("Explored, as the mission estimates [%]", 1, times,
-                {"explored": [p.explored for p in track]}),
+                {"explored": [p.explored for p in track]}, 100.0),
         plot_of("Sources known, served", 0, times,
                 {"known": [float(p.sources_known) for p in track],
                  "served": [float(p.sources_delivered) for p in track]}),

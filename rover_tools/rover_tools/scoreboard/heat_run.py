@@ -8,11 +8,9 @@ from pathlib import Path
 
 import cv2
 
-from burger_simulator.world.maze import Maze
 from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
 from rover_tools.evaluation.heat_mission_result import (
     HEAT_RESULT_KEYS,
-    HeatRun,
     failed_heat_result,
     heat_mission_result,
 )
@@ -77,18 +75,11 @@ def _run(job: HeatJob, watch: StepWatch, on_step: Watch) -> HeatLog:
     maze = job.world()
     run = run_heat_mission(maze, job.seed, job.setup, on_step)
     cpu = time.process_time() - cpu
-    result = _result(job, maze, run, time.monotonic() - start)
+    seconds = time.monotonic() - start
+    result = heat_mission_result(maze, job.seed, job.setup, run, seconds)
     result["times_real_time"] = round(run.time / cpu, 1)
     watch.end(run.grid, run.overlay)
     return watch.log.log(
         f"{maze.name}, {job.setup.label}", run.grid, watch.with_faces(run.overlay), result, maze,
         run.map_in_world, run.truth.launches,
-    )  # fmt: skip
-
-
-def _result(job: HeatJob, maze: Maze, run: HeatRun, seconds: float) -> Result:
-    config = job.setup.config
-    return heat_mission_result(
-        maze, job.seed, job.setup.label, run, time_limit=config.time_limit,
-        stand_off=config.stand_off, wall_seconds=seconds,
     )  # fmt: skip
