@@ -17,4 +17,7 @@ setup(
     description="Costmap, roadmap, frontiers, tours, path tracking, recovery, embedded navigator.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": ["navigator_node = rover_navigation.node:main"],
+    },
 )

@@ -102,6 +102,14 @@ def ros(domain_id: int) -> Iterator[Ros]:
     ros.close()
 
 
+@pytest.fixture
+def other_ros(domain_id: int) -> Iterator[Ros]:
+    """A second context, as of another process in the same domain."""
+    ros = Ros(domain_id)
+    yield ros
+    ros.close()
+
+
 @pytest.fixture(scope="session")
 def recordings() -> Path:
     """The folder of recorded runs; skips where there is none."""

@@ -88,3 +88,10 @@ def angles_from_quaternion(x: float, y: float, z: float, w: float) -> tuple[floa
     pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
     yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     return roll, pitch, yaw
+
+
+def through_quaternion(pose: Pose) -> Pose:
+    """The planar pose that arrives where this one is sent with its rotation as a quaternion."""
+    planar = Pose(pose.x, pose.y, pose.yaw)
+    _, _, yaw = angles_from_quaternion(*quaternion_from_pose(planar))
+    return Pose(pose.x, pose.y, yaw)

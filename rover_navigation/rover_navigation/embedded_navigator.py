@@ -30,7 +30,7 @@ class NavigatorOutput:
     twist: Twist | None  # None while there is no goal: then another controller may drive
     pose: Pose | None  # of base_footprint in the map; None before there is a map
     covariance: NDArray[np.float64]  # (3, 3) of x, y [m], yaw [rad]
-    map_to_odom: Pose | None  # the odom frame in the map
+    map_to_odom: Pose | None  # the odom frame in the map; None while the pose is not known
     relocations: int  # times so far that the pose was lost and found by search
     map: GridMap | None  # when a new one is due
     path: NDArray[np.float64]  # (n, 2) [m] to the goal, for people
@@ -56,6 +56,7 @@ class EmbeddedNavigator:
         self._stamp = 0
         self._last_scan = self._last_odometry = 0  # [ns]
         self._next_map = 0  # [ns]
+        self._given: tuple[GridMap, ...] = ()  # the last maps that were given out
 
     @property
     def is_ready(self) -> bool:
@@ -63,7 +64,10 @@ class EmbeddedNavigator:
         return self._localizer.is_ready and not self._localizer.is_lost
 
     def go_to(self, pose: Pose, tolerance: float) -> EmbeddedGoal:
-        """Drive to a pose of the map; a goal that cannot be driven to has failed at once."""
+        """Drive to a pose of the map; a goal that cannot be driven to has failed at once.
+
+        While the pose is searched a goal waits, as one that was given before does.
+        """
         goal = EmbeddedGoal(pose, tolerance)
         if self._goal is not None:
             self._goal.end(GoalStatus.CANCELLED, "replaced by another goal")
@@ -78,8 +82,10 @@ class EmbeddedNavigator:
     def _refusal(self, goal: EmbeddedGoal) -> str:
         """Why a goal cannot be driven to; empty when it can."""
         here = self._localizer.buffer.latest()
-        if here is None or not self.is_ready:
+        if here is None or not self._localizer.is_ready:
             return "there is no pose in a map"
+        if self._localizer.is_lost:
+            return ""
         ground = self._ground(here)
         reason = ground.refusal(goal.pose, goal.tolerance)
         if not reason and len(ground.path(here, goal.pose, goal.tolerance)) == 0:
@@ -87,9 +93,12 @@ class EmbeddedNavigator:
         return reason
 
     def set_hazards(self, hazards: GridMap) -> None:
-        """The map with blocked places in it, which paths keep off; replaces the one before."""
-        self._hazards.set(hazards, self._localizer.map.cells.grid())
-        self._run.replan()
+        """One of the maps that were given out, with blocked places in it, which paths keep off.
+
+        It replaces the one before. What was a wall on one of those maps is not blocked for that.
+        """
+        if self._hazards.set(hazards, *self._given):
+            self._run.replan()
 
     def pose_at(self, stamp: int) -> Pose | None:
         """Of base_footprint in the map at a stamp [ns]; None where the odometry does not reach."""
@@ -107,7 +116,7 @@ class EmbeddedNavigator:
             twist,
             pose,
             self._localizer.covariance,
-            self._localizer.map_to_odom,
+            None if self._localizer.is_lost else self._localizer.map_to_odom,
             self._localizer.relocations,
             self._map_when_due(batch.stamp),
             NO_POINTS if twist is None else self._run.path,
@@ -162,4 +171,6 @@ class EmbeddedNavigator:
         if not self._localizer.is_ready or stamp < self._next_map:
             return None
         self._next_map = stamp + round(self._config.map_period * 1e9)
-        return self._localizer.map.cells.grid()
+        grid = self._localizer.map.cells.grid()
+        self._given = (*self._given[-1:], grid)
+        return grid

@@ -20,10 +20,14 @@ class Hazards:
     def __init__(self) -> None:
         self._centers = np.empty((2, 0))  # [m] x, y of their cells
 
-    def set(self, hazards: GridMap, own: GridMap) -> None:
-        """Replace all of them; own: the robot's map now."""
+    def set(self, hazards: GridMap, *own: GridMap) -> bool:
+        """Replace all of them; own: the robot's maps without them. Whether something changed."""
         centers = np.stack(geometry_of(hazards).center_of(*np.nonzero(_occupied(hazards))))
-        self._centers = centers[:, ~occupied_at(own, *centers)]
+        for grid in own:
+            centers = centers[:, ~occupied_at(grid, *centers)]
+        changed = not np.array_equal(centers, self._centers)
+        self._centers = centers
+        return changed
 
     def drawn_into(self, grid: GridMap) -> GridMap:
         """The map with the blocked places occupied; those beyond it are left out."""

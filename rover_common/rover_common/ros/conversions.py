@@ -215,10 +215,11 @@ def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
 
 
 def grid_of(message: OccupancyGrid) -> GridMap:
-    """A read-only view of the message's cells."""
+    """A read-only view of the message's cells; their size to the micrometre, of its 32 bits."""
     info = message.info
     cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
-    return GridMap(info.resolution, info.origin.position.x, info.origin.position.y, cells)
+    resolution, origin = round(info.resolution, 6), info.origin.position
+    return GridMap(resolution, origin.x, origin.y, cells)
 
 
 def command_message_of(now: int, frame_stamp: int, run: Run, command: Command) -> DriveCommand:

@@ -21,6 +21,7 @@ class NodeDiagnostics:
 
     `peers` maps a peer's name to a function that tells whether it is connected; until all are, the
     level is WARN. `counts` is the node's own: count events with `diagnostics.counts["name"] += 1`.
+    Other troubles are set by name, and taken away with an empty text.
     """
 
     def __init__(self, node: Node, peers: Mapping[str, Callable[[], bool]]) -> None:
@@ -29,29 +30,43 @@ class NodeDiagnostics:
         self._peers = dict(peers)
         self._level: Any = None
         self._checks = 0
+        self._warnings: dict[str, str] = {}
+        self._errors: dict[str, str] = {}
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         # Wall time: it must go on while the simulated clock stands still.
         self._timer = node.create_timer(
             PERIOD, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
 
+    def set_warning(self, name: str, text: str) -> None:
+        """Something that a person should know; an empty text ends it."""
+        self._warnings[name] = text
+
+    def set_error(self, name: str, text: str) -> None:
+        """Something that keeps the node from its work; an empty text ends it."""
+        self._errors[name] = text
+
     def _check(self) -> None:
         missing = [name for name, connected in self._peers.items() if not connected()]
-        level = DiagnosticStatus.WARN if missing else DiagnosticStatus.OK
+        errors = list(filter(None, self._errors.values()))
+        texts = errors + list(filter(None, self._warnings.values()))
+        texts += ["waiting for " + ", ".join(missing)] if missing else []
+        level = DiagnosticStatus.WARN if texts else DiagnosticStatus.OK
+        level = DiagnosticStatus.ERROR if errors else level
         self._checks += 1
         if level != self._level or self._checks >= CHECKS_PER_PUBLISH:
             self._checks = 0
             self._level = level
-            self._publish(level, missing)
+            self._publish(level, texts)
 
-    def _publish(self, level: Any, missing: list[str]) -> None:
+    def _publish(self, level: Any, texts: list[str]) -> None:
         message = DiagnosticArray()
         message.header.stamp = self._node.get_clock().now().to_msg()
         message.status = [
             DiagnosticStatus(
                 level=level,
                 name=self._node.get_fully_qualified_name(),
-                message="waiting for " + ", ".join(missing) if missing else "connected",
+                message="; ".join(texts) or "connected",
                 values=[KeyValue(key=k, value=str(v)) for k, v in sorted(self.counts.items())],
             )
         ]
