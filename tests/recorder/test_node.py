@@ -11,8 +11,9 @@ from array import array
 import cv2
 import numpy as np
 import pytest
+from nav_msgs.msg import Odometry
 from rclpy.node import Node
-from rclpy.serialization import deserialize_message, serialize_message
+from rclpy.serialization import deserialize_message
 from recordings_by_hand import write_recording
 from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import String
@@ -70,7 +71,8 @@ def test_messages_are_written_as_they_were_on_the_wire(ros, graph, tmp_path):
     assert ros.spin_until(all_written)
     recording = finished(ros, recorder)
     (record,) = recording.records(["/odom"])
-    assert record.data == serialize_message(odometry)
+    # Not byte by byte: what pads the fields is not defined.
+    assert deserialize_message(record.data, Odometry) == odometry
     assert record.publish_time == 7 * SECOND
     assert record.log_time > 1_700_000_000 * SECOND  # of the wall clock
     (record,) = recording.records(["/early"])
@@ -181,7 +183,8 @@ def record_until(ros, graph, process, number: signal.Signals, tmp_path):
     folder = tmp_path / "a run #1"
     file = folder / "a run #1_0.mcap"
     publisher = graph.create_publisher(String, "text", qos.FRAME)
-    assert ros.spin_until(lambda: publisher.get_subscription_count() > 0)
+    # The recorder gives way to other processes: on a busy machine it starts late.
+    assert ros.spin_until(lambda: publisher.get_subscription_count() > 0, timeout=60.0)
     size = file.stat().st_size
     count = 0
 
