@@ -13,6 +13,7 @@ from rover_common.geometry import Pose, compose, distance_between, wrap_angle
 from rover_common.sensor_types import Twist
 from rover_common.types import GridMap
 from rover_navigation.burger_scale import BURGER_SCALE
+from rover_navigation.control.critics import Scene, Trajectories, cost_of
 from rover_navigation.control.goal_driver import GoalDriver, Phase, nearest_index
 from rover_navigation.control.goal_run import GoalRun
 from rover_navigation.control.mppi import PERIOD, Mppi
@@ -72,6 +73,27 @@ def test_it_drives_forwards():
     assert min(twist.linear for twist in twists) > -0.03
     cruising = [twist.linear for twist in twists[20:-60]]
     assert np.mean(cruising) > 0.8 * BURGER.cruise_speed
+
+
+def cost(x: float, y: float, yaw: float = 0.0, linear: float = 0.1, angular: float = 0.0) -> float:
+    """Of standing at a place of a hall whose path leads along its middle from x = 1."""
+    shape = (40, 1)
+    paths = Trajectories(*(np.full(shape, value, np.float32) for value in (x, y, yaw)))
+    path = np.stack([np.linspace(1.0, 1.55, 12), np.full(12, 1.0)], axis=1).astype(np.float32)
+    scene = Scene(ground(hall()).costmap, path, BURGER.body_radius, BURGER_SCALE.inflation)
+    velocities = (np.full(shape, value, np.float32) for value in (linear, angular))
+    return float(cost_of(paths, *velocities, scene)[0])
+
+
+def test_the_critics_want_the_robot_on_the_path_ahead_clear_of_walls_and_forwards():
+    assert cost(1.2, 0.12) > cost(1.2, 0.24) + 100.0  # a collision
+    assert cost(1.2, 1.2) > cost(1.2, 1.0)
+    assert cost(1.1, 1.0) > cost(1.2, 1.0)
+    assert cost(1.2, 1.0, yaw=1.0) > cost(1.2, 1.0)
+    assert cost(1.2, 1.0, linear=-0.05) > cost(1.2, 1.0)
+    assert cost(1.2, 1.0, angular=1.0) > cost(1.2, 1.0)
+    beside = [cost(1.2, y) - 8.0 * abs(y - 1.0) for y in (0.24, 0.28)]
+    assert beside[0] > beside[1]
 
 
 def test_a_robot_too_near_to_a_wall_gets_away_from_it():

@@ -36,7 +36,7 @@ class Scene:
 
     costmap: Costmap
     path: NDArray[np.float32]  # (n, 2) [m] map frame, what of it lies just ahead; at least 2
-    radius: float  # [m] of the body; less for a robot that stands nearer to a wall and has to leave
+    radius: float  # [m] of the body
     inflation: float  # [m] from obstacles up to which ground costs more
 
 
@@ -55,7 +55,7 @@ def cost_of(
 
 
 def _clearance_cost(paths: Trajectories, scene: Scene) -> NDArray[np.float32]:
-    """Collisions of the body's disc, and nearness to walls."""
+    """Collisions of the body's disc, by their time: a robot that stands in one leaves; nearness."""
     geometry = scene.costmap.geometry
     scale = np.float32(1.0 / geometry.resolution)
     col = (paths.x - np.float32(geometry.origin_x)) * scale - np.float32(0.5)

@@ -21,7 +21,6 @@ AHEAD = 0.6  # [m] of the path that count: what is reached in the controller's h
 TURN_GAIN, TURN_LEAST = 2.5, 0.15  # [1/s], [rad/s] of turns in place
 CLOSE_ENOUGH = 0.4  # of the tolerance, at which it stops to come nearer
 CLOSER = 0.003  # [m] to come nearer by, lest it counts as near as it gets
-SLACK = 0.005  # [m] that a robot in inflated ground may come nearer to a wall
 
 
 class Phase(Enum):
@@ -69,9 +68,8 @@ class GoalDriver:
             return self._turn(_bearing_along(ahead, pose))
         if self.phase is Phase.REACHED or len(ahead) < 2:
             return Twist()
-        row, col = costmap.geometry.nearest_cell_to(pose.x, pose.y)
-        radius = min(self._model.body_radius, float(costmap.clearance[row, col]) - SLACK)
-        scene = Scene(costmap, ahead.astype(np.float32), radius, self._inflation)
+        path_ahead = ahead.astype(np.float32)
+        scene = Scene(costmap, path_ahead, self._model.body_radius, self._inflation)
         return self._mppi.twist(pose, last, scene)
 
     def _choose_phase(
