@@ -7,22 +7,23 @@ import pytest
 
 from rover_decision import state_diagram
 from rover_decision.missions.sample_return.chart import Event, State, transitions
+from rover_decision.state_diagram import END, SAMPLE_RETURN
 
 DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "decision.md"
 
 
 def drawn() -> set[tuple[str, str, str]]:
     """All arrows between two names of the diagram, with what stands on them."""
-    return set(re.findall(r"^\s*(\w+) --> (\w+) : (.*)$", state_diagram.diagram(), re.MULTILINE))
+    return set(re.findall(r"^\s*(\w+) --> (\w+) : (.*)$", SAMPLE_RETURN.diagram(), re.MULTILINE))
 
 
 def test_the_document_is_up_to_date():
     document = DOCUMENT.read_text()
-    assert state_diagram.written_into(document) == document, state_diagram.__doc__
+    assert SAMPLE_RETURN.written_into(document) == document, state_diagram.__doc__
 
 
 def test_the_diagram_has_each_state_and_each_event():
-    diagram = state_diagram.diagram()
+    diagram = SAMPLE_RETURN.diagram()
     for state in State:
         assert re.search(rf"\b{state.name.lower()}\b", diagram), state
     events = {event for _, _, label in drawn() for event in re.split(r", | / ", label)}
@@ -44,7 +45,7 @@ def test_the_diagram_has_the_arrows_between_single_states():
 def test_the_table_has_each_event_with_its_meaning_and_its_states():
     rows = [
         [cell.strip() for cell in line.strip("|").split("|")]
-        for line in state_diagram.table().splitlines()[2:]
+        for line in SAMPLE_RETURN.table().splitlines()[2:]
     ]
     assert [row[:2] for row in rows] == [[event.name, event.value] for event in Event]
     for event, (_, _, sources, targets) in zip(Event, rows, strict=True):
@@ -60,14 +61,14 @@ def test_the_states_are_described_in_their_order():
 
 def test_it_writes_between_the_markers_and_nowhere_else(tmp_path):
     path = tmp_path / "page.md"
-    path.write_text(f"before\n{state_diagram.BEGIN}\nas before\n{state_diagram.END}\nafter\n")
+    path.write_text(f"before\n{SAMPLE_RETURN.begin}\nas before\n{END}\nafter\n")
     assert state_diagram.main([str(path)]) == 0
     written = path.read_text()
     assert written.startswith("before\n")
     assert written.endswith("\nafter\n")
     assert "as before" not in written
-    assert state_diagram.diagram() in written
-    assert state_diagram.table() in written
+    assert SAMPLE_RETURN.diagram() in written
+    assert SAMPLE_RETURN.table() in written
     assert state_diagram.main([]) == 2
     with pytest.raises(ValueError, match="lacks the lines"):
-        state_diagram.written_into("no markers")
+        SAMPLE_RETURN.written_into("no markers")

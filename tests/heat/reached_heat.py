@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 from driven_heat import APPROACH, RAMP, RAMP_PITCH, SOURCE, STAND, DrivenHeat
@@ -118,13 +116,8 @@ REACH: dict[State, Callable[[], DrivenHeat]] = {
 }
 
 
-@cache
-def _once(state: State) -> DrivenHeat:
-    return REACH[state]()
-
-
 def reach(state: State) -> DrivenHeat:
-    """A mission of its own in a state."""
-    driven = copy.deepcopy(_once(state))
+    """A mission in a state."""
+    driven = REACH[state]()
     assert driven.state is state
     return driven

@@ -79,6 +79,16 @@ def test_around_the_robot_there_is_no_frontier():
     assert all(math.hypot(x, y) > 0.15 for x, y in found.frontiers)
 
 
+def test_ground_at_the_edge_of_the_map_is_a_frontier():
+    cells = np.zeros((40, 40), np.int8)
+    cells[0], cells[:, 0], cells[-1] = 100, 100, 100  # the east is open
+    found = HeatPlanner(FAST).plan(
+        HeatPlanRequest(0, GridMap(0.05, 0.0, 0.0, cells), Pose(1, 1, 0))
+    )
+    (goal,) = found.goals
+    assert goal.x > 1.9
+
+
 def test_views_examine_all_faces_in_the_end():
     places = [WEST, EAST, (0.75, 1.3), (2.8, 1.4)]
     coverage, pose = Coverage(CONFIG), Pose(*WEST, 0.0)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
+from rover_common.map_encoding import FREE_BELOW, UNKNOWN
 from rover_common.types import GridMap
 from rover_heat.planning.types import HeatPlanRequest
 from rover_navigation.burger_scale import BURGER_SCALE
@@ -23,6 +24,7 @@ Points = NDArray[np.float64]
 SAMPLE = 0.04  # [m] along a line of sight: less than a cell
 # [m] from obstacles, of places to drive to: more than on the way there, for the robot turns at them
 ROOM = 0.20
+BORDER = 4  # [cells]
 
 
 @dataclass(frozen=True)
@@ -78,8 +80,9 @@ def make_site(request: HeatPlanRequest, padding: int) -> Site:
     """padding: [cells] of obstacles beyond their own."""
     scale = BURGER_SCALE
     body = (request.pose.x, request.pose.y)
-    plain = Costmap.of(request.grid, NO_POINTS, body, scale)
-    blocked = request.hazards.drawn_into(_padded(request.grid, padding))
+    grid = _bordered(request.grid)
+    plain = Costmap.of(grid, NO_POINTS, body, scale)
+    blocked = request.hazards.drawn_into(_padded(grid, padding))
     costmap = Costmap.of(blocked, NO_POINTS, body, scale)
     roadmap = Roadmap(costmap, scale)
     start = _start_node(roadmap, plain, request.pose)
@@ -104,12 +107,19 @@ def _start_node(roadmap: Roadmap, plain: Costmap, pose: Pose) -> int:
     return int(near[np.argmin(away[near])]) if len(near) else -1
 
 
+def _bordered(grid: GridMap) -> GridMap:
+    """The map with unknown cells around it: ground at its very edge borders on the unknown too."""
+    size = BORDER * grid.resolution
+    cells = np.pad(grid.cells, BORDER, constant_values=UNKNOWN)
+    return GridMap(grid.resolution, grid.origin_x - size, grid.origin_y - size, cells)
+
+
 def _padded(grid: GridMap, padding: int) -> GridMap:
     """The map with its occupied cells grown."""
     if padding == 0:
         return grid
     size = 2 * padding + 1
-    occupied = (grid.cells >= 50).astype(np.uint8)
+    occupied = (grid.cells >= FREE_BELOW).astype(np.uint8)
     grown = cv2.dilate(occupied, np.ones((size, size), np.uint8)) > 0
     cells = np.where(grown & (grid.cells >= 0), np.int8(100), grid.cells)
     return GridMap(grid.resolution, grid.origin_x, grid.origin_y, cells)

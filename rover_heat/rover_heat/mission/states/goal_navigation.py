@@ -14,7 +14,9 @@ from rover_heat.mission.tick import HeatAction, HeatTick
 from rover_heat.mission.trip import TripStatus
 
 CORRECTIONS = 2  # times that it drives again to where the source is seen to be from near
-TOLERANCE_SHARE = 0.5  # of the stand-off's tolerance: the rest is for what is not known better
+TOLERANCE_SHARE = (
+    0.9  # of the stand-off's tolerance, for the navigator; a robot does not drive sideways
+)
 
 
 class GoalNavigation(Driving):
