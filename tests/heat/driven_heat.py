@@ -32,7 +32,7 @@ GRID = GridMap(0.05, 0.0, 0.0, np.zeros((80, 80), np.int8))
 AIR = np.full((8, 8), 24.0, np.float32)
 RAMP_PITCH = -0.119  # [rad]
 GOAL = HeatGoal(GoalKind.FRONTIER, Pose(3.0, 2.0, 0.0), 3.4, 2.0, 5.0)
-SOURCE = Group(2.0, 4.0, (4e-4, 0.0, 0.0, 4e-4), -math.pi / 2, 30, 0.5, 8.0)
+SOURCE = Group(2.0, 4.0, (4e-4, 0.0, 0.0, 4e-4), -math.pi / 2, 3000, 0.5, 8.0)
 STAND = StandOff(Pose(2.0, 3.7, math.pi / 2), 8.0)
 RAMP = Ramp(3.0, 1.0, 0.0)
 APPROACH = StandOff(RAMP.before_foot(0.5), 6.0)
@@ -97,6 +97,7 @@ class DrivenHeat:
         self.plan = goal_plan(GOAL)
         self.notices: list[str] = []
         self.launches = 0
+        self.plans = True  # whether new ones come
         self._planned = -math.inf
         self._count = 0
 
@@ -137,7 +138,7 @@ class DrivenHeat:
         failure = what.pop("failure", None)
         age = what.pop("plan_age", None)
         plan = what.pop("plan", self.plan)
-        if self.time - self._planned >= 1.0 and age is None:
+        if self.plans and self.time - self._planned >= 1.0 and age is None:
             self._planned = self.time
         stamp = round((self._planned if age is None else self.time - age) * SECOND)
         status = PlanStatus(None if plan is None else replace(plan, stamp=stamp), failure)

@@ -101,6 +101,16 @@ def test_what_is_given_up_is_no_longer_open():
     assert examined(coverage).examined[:40].all()
 
 
+def test_what_was_examined_from_a_place_is_known():
+    coverage = Coverage(CONFIG)
+    look(coverage, Pose(1.5, 1.0, math.pi / 2), ROOM)
+    ahead = np.array([[1.4, 1.97], [1.5, 1.97], [1.6, 1.97]])
+    assert coverage.examined_from(1.5, 1.0, ahead) == 1.0
+    assert coverage.examined_from(0.2, 1.9, ahead) == 0.0
+    both = np.vstack([ahead, [[0.3, 1.97]]])
+    assert coverage.examined_from(1.5, 1.0, both) == 0.75
+
+
 def test_a_snapshot_stays_as_it_is():
     coverage = Coverage(CONFIG)
     snapshot = coverage.snapshot()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from driven_heat import SECOND, STAND
+from driven_heat import SECOND, SOURCE, STAND
 from reached_heat import (
     explored_plan,
     exploring,
@@ -102,6 +103,16 @@ def test_a_robot_that_does_not_stand_does_not_launch(moving):
     driven = launching()
     driven.until_state(State.GOAL_NAVIGATION, 14.0, **moving)
     assert driven.launches == 0
+
+
+def test_a_source_that_proves_cold_is_not_served():
+    driven = navigating()
+    driven.plan = explored_plan(sources=(replace(SOURCE, observations=20),))
+    driven.ticks(1.2)
+    driven.arrive()
+    driven.until_state(State.ATTEMPTING_RAMP, 4.0, turn=0.04)  # too restless to launch
+    assert driven.launches == 0
+    assert any("cold" in notice for notice in driven.notices)
 
 
 def test_a_silent_launcher_counts_as_launched_with_a_warning():

@@ -81,8 +81,8 @@ def test_it_drives_to_the_first_goal_of_the_plan():
 
 def test_a_reached_frontier_is_not_driven_to_again():
     driven = exploring()
+    driven.plans = False
     driven.arrive()
-    driven.plan = goal_plan()
     driven.ticks(1.0)
     assert len(driven.navigator.goals) == 1
     assert driven.mission.overlay().visited.tolist() == [[GOAL.x, GOAL.y]]
@@ -90,8 +90,8 @@ def test_a_reached_frontier_is_not_driven_to_again():
 
 def test_a_frontier_that_is_there_still_after_the_visit_is_known():
     driven = exploring()
+    driven.plans = False
     driven.arrive()
-    driven.ticks(0.1)
     request = driven.mission.plan_request(driven.frame())(None)
     assert request.known.tolist() == [[GOAL.x, GOAL.y, 0.2]]
 
@@ -134,11 +134,23 @@ def test_at_a_view_it_looks_for_some_frames():
     driven.plan = HeatPlan(0, goals=(view,), open_faces=FACES, goal_seconds=5.0)
     driven.until_state(State.EXPLORING, 5.0)
     driven.until(lambda _: bool(driven.navigator.goals), 2.0)
-    driven.arrive()
+    driven.move_to(view.pose, thermal=())
+    driven.goal.status = GoalStatus.REACHED
     begun = driven.time
     driven.plan = HeatPlan(0, open_faces=FACES, goal_seconds=0.1)
-    driven.until(lambda made: "waits" in made.reason, 2.0)
+    driven.until(lambda made: "waits" in made.reason, 2.0, thermal=())
     assert 0.7 <= driven.time - begun <= 1.5
+
+
+def test_a_view_ends_when_its_faces_are_examined():
+    view = HeatGoal(GoalKind.VIEW, Pose(3.0, 3.5, 1.57), 3.05, 3.9, 5.0, FACES)
+    driven = DrivenHeat()
+    driven.plan = HeatPlan(0, goals=(view,), open_faces=FACES, goal_seconds=5.0)
+    driven.until_state(State.EXPLORING, 5.0)
+    driven.until(lambda _: bool(driven.navigator.goals), 2.0)
+    driven.plans = False
+    driven.arrive()
+    driven.until(lambda made: "waits" in made.reason, 0.4)
 
 
 def test_a_view_that_shows_nothing_twice_is_given_up():

@@ -112,6 +112,19 @@ def test_views_examine_all_faces_in_the_end():
     assert len(explored) < 30
 
 
+def test_a_place_that_was_warm_too_seldom_is_viewed_again():
+    places = [WEST, EAST, (0.75, 1.3), (2.8, 1.4)]
+    coverage, pose = Coverage(CONFIG), Pose(0.75, 0.9, math.pi / 2)
+    look(coverage, pose, ROOMS)
+    few = tuple(cloud(0.75, 1.5, 2, normal=-math.pi / 2))
+    enough = tuple(cloud(0.75, 1.5, 3, normal=-math.pi / 2))
+    for fixes, open_again in (((), False), (few, True), (enough, False)):
+        found = plan(places, examined=coverage.snapshot(), fixes=fixes)
+        away = np.hypot(*(found.open_faces - (0.75, 1.475)).T)
+        assert (away.min() < 0.05) == open_again
+        assert len(found.suspects) == (2 if open_again else 0)
+
+
 @pytest.mark.parametrize("sensors", [(1,), (2,)])
 def test_a_view_is_for_the_sensors_that_are_alive(sensors):
     found = plan([WEST, EAST], sensors=sensors)

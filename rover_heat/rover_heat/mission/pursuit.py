@@ -7,9 +7,11 @@ import math
 import numpy as np
 from scipy.spatial import KDTree
 
+from rover_common.geometry import Pose, distance_between
 from rover_heat.mission.parts import HeatParts
 from rover_heat.mission.tick import HeatTick
 from rover_heat.mission.trip import TripStatus
+from rover_heat.planning.faces import SUSPECT
 from rover_heat.planning.types import GoalKind, HeatGoal, HeatPlan, Points, worth_of
 
 TOLERANCE = 0.10  # [m]
@@ -17,6 +19,8 @@ LOOK, LOOK_FRAMES = 0.7, 3.0  # [s] at a view's pose, and periods of a thermal s
 SAME = 0.3  # [m] a goal this near to another one is the same, seen anew
 BETTER = 2.0  # times as much per second shows a goal that is turned to on the way
 LEFT = 0.25  # of a view's faces: with fewer it need not be driven to
+WARM_LOOK = 0.7  # [s] longer, for more fixes of what is warm
+SEEN = 0.95  # of its faces: with so many it need not look longer
 SAME_FACE = 0.03  # [m]
 
 
@@ -45,8 +49,8 @@ class Pursuit:
         if tick.plan_is_new and tick.plan is not None and tick.plan.placed:
             self._revise(tick, tick.plan)
         goal, trip = self.goal, self._parts.trip
-        if goal is not None and trip.status is TripStatus.REACHED:
-            self._look(tick.time, goal)
+        if goal is not None and self._is_there(tick.pose, goal):
+            self._look(tick, goal)
         elif goal is not None and trip.status is TripStatus.FAILED:
             self._parts.notices.append(f"goal given up: {trip.reason}")
             self._parts.goals.failed(tick.time, goal)
@@ -67,6 +71,7 @@ class Pursuit:
                 left = _left(done.faces, plan.open_faces)
                 given_up = self._parts.goals.viewed_in_vain(left)
                 self._parts.sensing.coverage.give_up(given_up)
+                self._forget_suspects(given_up, plan)
         self._finished = [(time, goal) for time, goal in self._finished if time > stamp]
         goal = self.goal
         if goal is None:
@@ -76,6 +81,12 @@ class Pursuit:
             best = plan.goals[0].worth if plan.goals else 0.0
             if worth == 0.0 or best > BETTER * worth:
                 self._end(tick.time)
+
+    def _forget_suspects(self, given_up: Points, plan: HeatPlan) -> None:
+        """What was warm there once was none."""
+        for x, y in plan.suspects.tolist():
+            if (np.hypot(*(given_up - (x, y)).T) < SUSPECT).any():
+                self._parts.sensing.forget_near(x, y, SUSPECT)
 
     def _worth_now(self, goal: HeatGoal, plan: HeatPlan) -> float:
         """[1/s] Of the goal at hand; 0 when what there was to see has been seen on the way."""
@@ -114,15 +125,25 @@ class Pursuit:
         self.goal, self._since, self._looks_until = goal, time, None
         self._parts.trip.start(goal.pose, TOLERANCE, goal.seconds)
 
-    def _look(self, time: float, goal: HeatGoal) -> None:
+    def _is_there(self, pose: Pose, goal: HeatGoal) -> bool:
+        """The lidar sees to all sides: to look beyond a frontier the robot need not turn."""
+        if goal.kind is GoalKind.FRONTIER and distance_between(pose, goal.pose) < TOLERANCE:
+            return True
+        return self._parts.trip.status is TripStatus.REACHED
+
+    def _look(self, tick: HeatTick, goal: HeatGoal) -> None:
         """At the goal: a view waits for the frames that examine its faces."""
         if self._looks_until is None:
             frames = LOOK_FRAMES * self._parts.sensing.period
             seconds = LOOK + frames if goal.kind is GoalKind.VIEW else 0.0
-            self._looks_until = time + seconds
-        if time >= self._looks_until:
+            self._looks_until = tick.time + seconds
+        coverage, pose = self._parts.sensing.coverage, tick.pose
+        seen = coverage.examined_from(pose.x, pose.y, goal.faces) >= SEEN
+        warm = self._parts.sensing.is_warm
+        enough = goal.kind is GoalKind.VIEW and seen and not warm
+        if tick.time >= self._looks_until + (WARM_LOOK if warm else 0.0) or enough:
             self._parts.goals.reached(goal)
-            self._end(time)
+            self._end(tick.time)
 
     def _end(self, time: float) -> None:
         """The goal at hand is done with."""

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from rover_heat.planning.site import Site
 from rover_heat.thermal.coverage import Examined, sectors_around
+from rover_navigation.types import NO_POINTS
 
 Points = NDArray[np.float64]
 CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
 BLUR = 1.0  # [cells] deviation: less would show the steps of a wall that lies across the grid
+SUSPECT = 0.15  # [m] around a place that was warm too seldom
 NORMALS = 64  # directions that normals are rounded to
 
 
@@ -26,8 +28,11 @@ class Faces:
     examined: NDArray[np.bool_]  # (n,)
 
 
-def find_faces(site: Site, examined: Examined) -> Faces:
-    """All on the map, reachable or not."""
+def find_faces(site: Site, examined: Examined, suspects: Points = NO_POINTS) -> Faces:
+    """All on the map, reachable or not.
+
+    suspects (n, 2) [m]: places that were warm too seldom to be a source: they are open again.
+    """
     walls = site.walls.astype(np.uint8)
     before = (cv2.dilate(walls, CROSS) > 0) & ~site.walls & ~site.costmap.unknown
     rows, cols = np.nonzero(before)
@@ -38,7 +43,8 @@ def find_faces(site: Site, examined: Examined) -> Faces:
     numbers = np.round(normals / (2.0 * np.pi) * NORMALS).astype(int) % NORMALS
     seen = examined.raster(site.geometry)[rows, cols] & ENOUGH[numbers]
     points = np.stack(site.geometry.center_of(rows, cols), axis=1)
-    return Faces(points, normals, np.asarray(seen > 0))
+    away = np.hypot(*(points[:, None] - suspects[None]).transpose(2, 0, 1))
+    return Faces(points, normals, (seen > 0) & (away > SUSPECT).all(axis=1))
 
 
 ENOUGH = np.array(

@@ -14,7 +14,7 @@ from rover_heat.planning.site import Site, make_site
 from rover_heat.planning.stand_off import approach, stand_offs
 from rover_heat.planning.types import HeatGoal, HeatPlan, HeatPlanRequest
 from rover_heat.planning.view_goals import Sights, find_sights, view_goals
-from rover_heat.thermal.sources import find_sources
+from rover_heat.thermal.sources import find_sources, find_suspects
 from rover_navigation.frontiers import in_discs
 
 START_REACH, GOAL_REACH = 0.3, 0.2  # [m] to the nearest drivable cell
@@ -34,7 +34,8 @@ class HeatPlanner:
         if not site.placed:
             return HeatPlan(request.stamp, placed=False, sources=sources)
         frontiers, middles = frontier_goals(site, request.pose, request.known)
-        faces = find_faces(site, request.examined)
+        suspects = find_suspects(request.fixes, sources, config)
+        faces = find_faces(site, request.examined, suspects)
         sights = find_sights(site, faces)
         views = self._views(request, site, faces, sights)
         goals = in_order(site, [*frontiers, *views])
@@ -48,6 +49,7 @@ class HeatPlanner:
             waiting=tuple(g for g, bad in zip(goals, failed, strict=True) if bad),
             goal_seconds=site.seconds_to(goal.x, goal.y, GOAL_REACH),
             sources=sources,
+            suspects=suspects,
             stand_offs=tuple(stand_offs(site, source, config) for source in sources),
             approaches=tuple(approach(site, ramp) for ramp in request.ramps),
             start_seconds=site.seconds_to(start.x, start.y, START_REACH),

@@ -92,6 +92,7 @@ class HeatPlan:
     waiting: tuple[HeatGoal, ...] = ()  # those that have failed of late
     goal_seconds: float = float("inf")  # [s] to the goal that is driven to
     sources: tuple[Group, ...] = ()
+    suspects: Points = field(default_factory=lambda: NO_POINTS)  # (n, 2) [m] too few fixes
     stand_offs: tuple[tuple[StandOff, ...], ...] = ()  # of each source, the best first
     approaches: tuple[StandOff, ...] = ()  # of each ramp; inf seconds where out of reach
     start_seconds: float = float("inf")  # [s] back to the start

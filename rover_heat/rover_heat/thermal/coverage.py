@@ -22,6 +22,8 @@ FIELD = float(AZIMUTHS[0]) - PIXEL / 2  # [rad] to either side of a sensor's axi
 SECTORS = 32  # of directions that a cell was seen from
 BEFORE = 0.03  # [m] from the lidar's point to the cell before the wall that it stands for
 HALF = 1 << 20  # cells: keys of cells are positive
+# from a cell's key to that of itself and of the eight around it
+STEPS = np.array([row * (1 << 32) + col for row in (-1, 0, 1) for col in (-1, 0, 1)])
 
 Points = NDArray[np.float64]
 Keys = NDArray[np.int64]
@@ -76,6 +78,21 @@ class Coverage:
         for key, sector in zip(keys[twice].tolist(), sectors[twice].tolist(), strict=True):
             self._sectors[key] = self._sectors.get(key, 0) | 1 << sector
 
+    def examined_from(self, x: float, y: float, faces: Points) -> float:
+        """Share of some faces (n, 2) [m] that were examined from about the direction of a place."""
+        towards = np.array([x, y]) - faces
+        sectors = sector_of(np.arctan2(towards[:, 1], towards[:, 0])).tolist()
+        around = [self._around(key) for key in _keys(faces).tolist()]
+        seen = [bits & _beside(sector) for bits, sector in zip(around, sectors, strict=True)]
+        return sum(map(bool, seen)) / len(seen) if seen else 1.0
+
+    def _around(self, key: int) -> int:
+        """The bits of a cell and of the eight around it."""
+        bits = 0
+        for step in STEPS.tolist():
+            bits |= self._sectors.get(key + step, 0)
+        return bits
+
     def give_up(self, faces: Points) -> None:
         """Faces (n, 2) [m] that could not be examined: they are no goals any more."""
         for key in _keys(faces).tolist():
@@ -115,5 +132,9 @@ def _centers(keys: Keys) -> tuple[Points, Points]:
 
 def _grown(keys: Keys) -> Keys:
     """These cells and the eight around each."""
-    steps = np.array([row * (1 << 32) + col for row in (-1, 0, 1) for col in (-1, 0, 1)])
-    return np.unique(keys[:, None] + steps)
+    return np.unique(keys[:, None] + STEPS)
+
+
+def _beside(sector: int) -> int:
+    """Bits of a sector and of its neighbours."""
+    return sum(1 << (sector + step) % SECTORS for step in (-1, 0, 1))

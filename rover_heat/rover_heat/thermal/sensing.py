@@ -78,6 +78,11 @@ class ThermalSensing:
         """[s] Between two frames of a sensor that is alive, the slowest of them."""
         return max((self._sensors[number].period for number in self.alive), default=0.1)
 
+    @property
+    def is_warm(self) -> bool:
+        """Whether the newest frame of a sensor shows heat."""
+        return any(self._sensors[number].patch is not None for number in self.alive)
+
     def bearing(self, sensor: int) -> float | None:
         """[rad] In base_footprint, of what is warm in a sensor's newest frame."""
         patch = self._sensors[sensor].patch

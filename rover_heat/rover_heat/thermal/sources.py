@@ -34,6 +34,16 @@ class Group:
     peak: float  # [K] greatest excess
 
 
+def find_suspects(
+    fixes: Sequence[Fix], sources: Sequence[Group], config: HeatConfig
+) -> NDArray[np.float64]:
+    """Fixes (n, 2) [m] that are too few to be a source: their places are to be observed again."""
+    places = np.array([(fix.x, fix.y) for fix in fixes]).reshape(-1, 2)
+    known = np.array([(source.x, source.y) for source in sources]).reshape(-1, 2)
+    away = np.hypot(*(places[:, None] - known[None]).transpose(2, 0, 1))
+    return places[(away > SATELLITE_DISTANCE * config.group_distance).all(axis=1)]
+
+
 def find_sources(fixes: Sequence[Fix], config: HeatConfig) -> tuple[Group, ...]:
     """The sources, the best observed first; none where there are no fixes."""
     if not fixes:

@@ -29,6 +29,8 @@ class Launching(Driving):
         self._launch.begin(tick.time, self._source())
 
     def update(self, tick: HeatTick) -> None:
+        if self._is_gone:
+            return
         self._launch.update(tick, self._source())
         if self._launch.signalled_now:
             number = self._approach.target
@@ -47,13 +49,18 @@ class Launching(Driving):
         return STANDING
 
     def _own_event(self, tick: HeatTick) -> Event | None:
-        if not self._launch.missed:
-            return None
-        return Event.deliver if self._source() is not None else self._parts.agenda.next_event()
+        if self._is_gone:
+            return self._parts.agenda.next_event()
+        return Event.deliver if self._launch.missed else None
 
     def act(self, tick: HeatTick) -> HeatAction:
         launch = self._launch
         return HeatAction(launch.reason, launch.twist, launch.signalled_now)
+
+    @property
+    def _is_gone(self) -> bool:
+        """Whether the source proved to be none, before anything was released."""
+        return self._source() is None and not self._launch.signalled
 
     def _source(self) -> HeatSource | None:
         number = self._approach.target
