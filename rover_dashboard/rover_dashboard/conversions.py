@@ -10,9 +10,16 @@ from typing import Any
 
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.serialization import deserialize_message
-from rover_interfaces.msg import DriveCommand, MissionState, RoverStatus
+from rover_interfaces.msg import (
+    DriveCommand,
+    HeatSourceArray,
+    HeatState,
+    MissionState,
+    RoverStatus,
+)
 from sensor_msgs.msg import CompressedImage, Image
-from std_msgs.msg import String
+from std_msgs.msg import Float32MultiArray, String
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rover_common import topics
@@ -23,6 +30,7 @@ from rover_dashboard.history import StateReport
 
 Point = tuple[float, float]
 COMPRESSED_VISION = f"{topics.VISION_IMAGE}/compressed"  # in recordings
+TF = "/tf"  # the one topic that is in no namespace
 
 
 TYPES: dict[str, type] = {
@@ -37,6 +45,13 @@ TYPES: dict[str, type] = {
     topics.WORLDMAP: OccupancyGrid,
     topics.PLAN: Path,
     topics.MISSION_MARKERS: MarkerArray,
+    topics.HEAT_STATE: HeatState,
+    topics.HEAT_SOURCES: HeatSourceArray,
+    topics.HEAT_MARKERS: MarkerArray,
+    topics.MAP: OccupancyGrid,
+    topics.TEMPERATURE_1: Float32MultiArray,
+    topics.TEMPERATURE_2: Float32MultiArray,
+    TF: TFMessage,
 }
 
 
@@ -91,22 +106,24 @@ def mission_of(message: MissionState) -> dict[str, Any]:
     }
 
 
-def report_of(message: MissionState) -> StateReport:
+def report_of(message: MissionState | HeatState) -> StateReport:
     stamp = stamp_of(message.header.stamp)
     return StateReport(stamp, message.run, message.state_name, message.reason)
 
 
 def plan_of(message: Path) -> list[Point]:
-    return [_point(pose.pose.position) for pose in message.poses]
+    return [point_of(pose.pose.position) for pose in message.poses]
 
 
 def markers_of(message: MarkerArray) -> dict[str, list[Point]]:
     """Points by the markers' namespaces; those that were deleted are empty."""
     return {
-        marker.ns: [_point(point) for point in marker.points] if marker.action == Marker.ADD else []
+        marker.ns: [point_of(point) for point in marker.points]
+        if marker.action == Marker.ADD
+        else []
         for marker in message.markers
     }
 
 
-def _point(position: Any) -> Point:
+def point_of(position: Any) -> Point:
     return (round(position.x, 2), round(position.y, 2))

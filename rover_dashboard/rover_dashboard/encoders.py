@@ -10,7 +10,7 @@ import numpy as np
 
 from rover_common.types import GridMap
 
-MARGIN = 3.0  # [m] of unknown ground shown around what is known
+MARGIN = 3  # [cells] of unknown ground shown around what is known
 UNKNOWN = 255  # in a map's picture; otherwise the probability of an obstacle [%]
 
 
@@ -58,17 +58,16 @@ def picture_of(picture: Picture | Jpeg) -> Encoded:
 def map_of(stamped: StampedMap) -> Encoded | None:
     """The part of a map that is known, as a grey picture with north at its top.
 
-    The facts place the picture in the map frame: its south-west corner and its size [m]. None when
-    nothing is known.
+    The facts place the picture in the map frame: its south-west corner, its size and that of a cell
+    [m]. None when nothing is known.
     """
     grid = stamped.grid
     known = grid.cells >= 0
     rows, columns = np.flatnonzero(known.any(axis=1)), np.flatnonzero(known.any(axis=0))
     if not len(rows):
         return None
-    margin = round(MARGIN / grid.resolution)
-    top, left = max(0, rows[0] - margin), max(0, columns[0] - margin)
-    cells = grid.cells[top : rows[-1] + margin + 1, left : columns[-1] + margin + 1]
+    top, left = max(0, rows[0] - MARGIN), max(0, columns[0] - MARGIN)
+    cells = grid.cells[top : rows[-1] + MARGIN + 1, left : columns[-1] + MARGIN + 1]
     grey = np.where(cells < 0, UNKNOWN, cells).astype(np.uint8)
     _, data = cv2.imencode(".png", np.flipud(grey))
     cell_area = grid.resolution**2
@@ -79,6 +78,7 @@ def map_of(stamped: StampedMap) -> Encoded | None:
         "y": grid.origin_y + float(top) * grid.resolution,
         "width": cells.shape[1] * grid.resolution,
         "height": cells.shape[0] * grid.resolution,
-        "ground": round(float(np.count_nonzero(known & (grid.cells < 50))) * cell_area),
+        "resolution": grid.resolution,
+        "ground": round(float(np.count_nonzero(known & (grid.cells < 50))) * cell_area, 1),
     }
     return Encoded(facts, data.tobytes())

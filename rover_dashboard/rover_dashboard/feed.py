@@ -13,13 +13,15 @@ from rover_dashboard.log import Cursor
 from rover_dashboard.slots import Slot, Slots
 
 # In the order in which they are sent. The first ones are heard of while somebody looks only.
-VIEWS = ("camera", "vision", "map", "plan", "markers")
-SLOTS = ("playback", "simulator", "mission", "vehicle", "parameters", *VIEWS)
-OF_RUN = ("map", "plan", "markers", "vision")  # nothing of another run may stay
+VIEWS = ("camera", "vision", "map", "plan", "markers", "sources", "thermal_1", "thermal_2")
+SLOTS = ("playback", "robot", "simulator", "mission", "vehicle", "parameters", *VIEWS)
+OF_RUN = ("map", "plan", "markers", "sources", "vision")  # nothing of another run may stay
 
 ENCODERS: Mapping[str, Callable[[Any], Encoded | None]] = {
     "camera": picture_of,
     "vision": picture_of,
+    "thermal_1": picture_of,
+    "thermal_2": picture_of,
     "map": map_of,
 }
 Message = str | bytes

@@ -9,13 +9,12 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from rover_common.types import Run, VehicleState
 from rover_dashboard.log import Cursor, Log, News, every_second, newer_half
 
-SPACING = 0.25  # [m] between two points of the track
 PERIOD = 0.5  # [s] of frame time between two samples of the plots
 TRACK_POINTS, SAMPLES, STATES = 4096, 2048, 512  # kept at most
 PENDING = 64  # frames whose command may still come
@@ -54,8 +53,13 @@ class History:
         with self._lock:
             return self._logs[name].since(cursor)
 
-    def add_frame(self, vehicle: VehicleState, steering: float) -> bool:
-        """One telemetry, with the wheels' angle [rad]; whether a run begins with it."""
+    def add_frame(
+        self, vehicle: VehicleState, readings: Sequence[float | None], spacing: float
+    ) -> bool:
+        """One frame; whether a run begins with it.
+
+        readings: what is plotted beside the speed; spacing [m]: between two points of the track.
+        """
         with self._lock:
             begins = vehicle.run != self.run
             if begins:
@@ -63,8 +67,8 @@ class History:
             self._arrivals[vehicle.stamp] = self._clock()
             if len(self._arrivals) > PENDING:
                 del self._arrivals[next(iter(self._arrivals))]
-            self._add_point(vehicle)
-            self._add_sample(vehicle, steering)
+            self._add_point(vehicle, spacing)
+            self._add_sample(vehicle, readings)
             return begins
 
     def add_command(self, frame_stamp: int) -> None:
@@ -128,13 +132,13 @@ class History:
         assert self.run is not None
         return round((stamp - self.run.start) * 1e-9, 2)
 
-    def _add_point(self, vehicle: VehicleState) -> None:
-        point = (round(vehicle.pose.x, 2), round(vehicle.pose.y, 2))
+    def _add_point(self, vehicle: VehicleState, spacing: float) -> None:
+        point = (round(vehicle.pose.x, 3), round(vehicle.pose.y, 3))
         track = self._logs["track"]
-        if track.last is None or math.dist(track.last, point) >= SPACING:
+        if track.last is None or math.dist(track.last, point) >= spacing:
             track.append(point)
 
-    def _add_sample(self, vehicle: VehicleState, steering: float) -> None:
+    def _add_sample(self, vehicle: VehicleState, readings: Sequence[float | None]) -> None:
         self._frames += 1
         elapsed = self._elapsed(vehicle.stamp)
         if elapsed < self._due:
@@ -145,7 +149,7 @@ class History:
         row = (
             elapsed,
             round(vehicle.speed, 2),
-            round(math.degrees(steering), 1),
+            *readings,
             round(self._frames / seconds, 1) if seconds > 0.0 else None,
             round(1e3 * sum(latencies) / len(latencies), 2) if latencies else None,
             None if self._map_stamp is None else round((vehicle.stamp - self._map_stamp) * 1e-9, 2),

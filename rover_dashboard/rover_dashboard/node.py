@@ -1,9 +1,10 @@
-"""The dashboard node: serves a live page of the mission.
+"""The dashboard node: serves a live page of the mission of either robot.
 
-Subscribes odom and rover_status (joined by stamp), mission_state and bridge_state all the time;
-camera/image_raw/compressed, vision_image, worldmap, plan, mission_markers and cmd_drive while
-somebody looks. Calls the services and sets the parameters of decision_node. Parameters: see
-DashboardConfig.
+Subscribes odom and rover_status (joined by stamp), mission_state, bridge_state, heat_state and /tf
+all the time; camera/image_raw/compressed, vision_image, worldmap, plan, mission_markers and
+cmd_drive, map, heat_markers, heat_sources and temperature_sensor_1 and _2 while somebody looks.
+Calls the services of decision_node and of heat_node, and sets the parameters of decision_node.
+Parameters: see DashboardConfig.
 asyncio runs in the main thread, rclpy in one other; they share slots and the history.
 """
 
@@ -25,9 +26,16 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.signals import SignalHandlerOptions
 from rclpy.subscription import Subscription
-from rover_interfaces.msg import DriveCommand, MissionState, RoverStatus
+from rover_interfaces.msg import (
+    DriveCommand,
+    HeatSourceArray,
+    HeatState,
+    MissionState,
+    RoverStatus,
+)
 from sensor_msgs.msg import CompressedImage, Image
-from std_msgs.msg import String
+from std_msgs.msg import Float32MultiArray, String
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from rover_common import topics
@@ -38,10 +46,11 @@ from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
 from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for
 from rover_dashboard.config import DashboardConfig
+from rover_dashboard.conversions import TF
 from rover_dashboard.feed import Feed
 from rover_dashboard.history import History
-from rover_dashboard.node_intake import Intake
-from rover_dashboard.node_requests import Requests
+from rover_dashboard.node_intake import HEAT, Intake
+from rover_dashboard.node_requests import DECISION, HEAT_NODE, Requests
 from rover_dashboard.protocol import (
     SETTABLE,
     Answer,
@@ -62,6 +71,8 @@ ALWAYS: Endpoints = (
     (topics.STATUS, RoverStatus, qos.FRAME),
     (topics.MISSION_STATE, MissionState, qos.LATCHED),
     (topics.BRIDGE_STATE, String, qos.LATCHED),
+    (topics.HEAT_STATE, HeatState, qos.LATCHED),
+    (TF, TFMessage, qos.TF),
 )
 WATCHED: Endpoints = (  # while somebody looks
     (topics.COMPRESSED_IMAGE, CompressedImage, qos.VIEW),
@@ -70,6 +81,11 @@ WATCHED: Endpoints = (  # while somebody looks
     (topics.PLAN, Path, qos.VIEW),
     (topics.MISSION_MARKERS, MarkerArray, qos.VIEW),
     (topics.COMMAND, DriveCommand, qos.FRAME),
+    (topics.MAP, OccupancyGrid, qos.LATCHED),
+    (topics.HEAT_MARKERS, MarkerArray, qos.VIEW),
+    (topics.HEAT_SOURCES, HeatSourceArray, qos.LATCHED),
+    (topics.TEMPERATURE_1, Float32MultiArray, qos.SENSOR),
+    (topics.TEMPERATURE_2, Float32MultiArray, qos.SENSOR),
 )
 
 
@@ -91,6 +107,11 @@ class DashboardNode(Node):
             self.create_subscription(kind, topic, partial(self._on_message, topic), profile)
             for topic, kind, profile in endpoints
         ]
+
+    @property
+    def mission_node(self) -> str:
+        """The node of the mission that is shown."""
+        return HEAT_NODE if self._intake.robot == HEAT else DECISION
 
     def set_watched(self, watched: bool) -> None:
         """Somebody looks, or nobody does any more; to be called in the executor's thread."""
@@ -121,7 +142,9 @@ class GraphRobot:
     async def carry_out(self, wish: Wish) -> Answer:
         match wish:
             case MissionRequest(name):
-                return await self._node.requests.request(name)
+                return await self._node.requests.request(self._node.mission_node, name)
+            case ParameterChange() if self._node.mission_node != DECISION:
+                return Answer(False, "no parameter of this mission may be set while it runs")
             case ParameterChange(name, value):
                 answer = await self._node.requests.set_parameter(name, value)
                 await self._read_parameters()
@@ -147,6 +170,8 @@ class GraphRobot:
 
     async def _read_parameters(self) -> None:
         """Others may set them as well, and a decision node that starts again has its own."""
+        if self._node.mission_node != DECISION:
+            return
         values = await self._node.requests.parameters(SETTABLE)
         slot = self._node.slots.get("parameters")
         if slot is None or slot.value != values:

@@ -1,7 +1,11 @@
-"""Messages into slots and history, whether they come from the graph or from a recording."""
+"""Messages into slots and history, whether they come from the graph or from a recording.
+
+Which robot is shown follows from what is heard: the state of the one mission or of the other.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -25,9 +29,14 @@ from rover_dashboard.conversions import (
     report_of,
     vehicle_of,
 )
-from rover_dashboard.feed import OF_RUN, VIEWS
+from rover_dashboard.feed import OF_RUN, SLOTS, VIEWS
 from rover_dashboard.history import History
+from rover_dashboard.node_heat_intake import HeatIntake
 from rover_dashboard.slots import Slots
+
+ROVER, HEAT = "rover", "heat"
+SPACING = 0.25  # [m] between two points of the rover's track
+STAYS = ("playback", "robot", "simulator")  # when another robot is shown
 
 
 class Intake:
@@ -36,6 +45,8 @@ class Intake:
     def __init__(self, slots: Slots, history: History) -> None:
         self._slots = slots
         self._history = history
+        self.robot = ""  # that is shown; none before a mission was heard of
+        self._heat = HeatIntake(slots, history)
         self._sync = ExactTimeSynchronizer((topics.ODOMETRY, topics.STATUS))
         self._takers: dict[str, Callable[[Any], None]] = {
             topics.ODOMETRY: lambda message: self._take_part(topics.ODOMETRY, message),
@@ -53,11 +64,27 @@ class Intake:
 
     def take(self, topic: str, message: Any) -> None:
         """topic: relative to the namespace. Raises MessageError for an image it cannot show."""
-        self._takers[topic](message)
+        if topic in (topics.MISSION_STATE, topics.HEAT_STATE):
+            self._show(HEAT if topic == topics.HEAT_STATE else ROVER)
+        if topic in self._heat.takers and (self.robot == HEAT or topic not in self._takers):
+            self._heat.takers[topic](message)
+        else:
+            self._takers[topic](message)
+
+    def _show(self, robot: str) -> None:
+        """Nothing of another robot may stay."""
+        if self.robot == robot:
+            return
+        if self.robot:
+            self._history.restart()
+            self._slots.empty(set(SLOTS) - set(STAYS))
+        self.robot = robot
+        self._slots.put("robot", robot)
 
     def stop_viewing(self) -> None:
         """Nobody looks: what is heard of only while somebody looks is no longer true."""
         self._slots.empty(VIEWS)
+        self._heat.stop_viewing()
         self._history.stop_viewing()
 
     def _take_part(self, topic: str, message: Any) -> None:
@@ -66,7 +93,8 @@ class Intake:
             return
         status = parts[topics.STATUS]
         vehicle = vehicle_state_of(parts[topics.ODOMETRY], status)
-        if self._history.add_frame(vehicle, status.steering_angle):
+        readings = (round(math.degrees(status.steering_angle), 1),)
+        if self._history.add_frame(vehicle, readings, SPACING):
             self._slots.empty(OF_RUN)
         self._slots.put("vehicle", vehicle_of(vehicle, status))
 

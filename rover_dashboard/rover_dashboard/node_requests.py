@@ -1,4 +1,4 @@
-"""Services of the decision node, called from the server's thread."""
+"""Services of the missions' nodes, called from the server's thread."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from rover_dashboard.protocol import Answer, Value
 from rover_decision.types import Request
 
-DECISION = "decision_node"
+DECISION, HEAT_NODE = "decision_node", "heat_node"
 PATIENCE = 5.0  # [s] of wall time for an answer
 DISCOVERY = 2.0  # [s] for a service to be found
 
@@ -25,17 +25,22 @@ class Requests:
 
     def __init__(self, node: Node) -> None:
         self._triggers = {
-            request.value: node.create_client(Trigger, f"{DECISION}/{request.value}")
+            (owner, request.value): node.create_client(Trigger, f"{owner}/{request.value}")
+            for owner in (DECISION, HEAT_NODE)
             for request in Request
+            if not (owner == HEAT_NODE and request is Request.RETURN_HOME)
         }
         self._get = node.create_client(GetParameters, f"{DECISION}/get_parameters")
         self._set = node.create_client(SetParameters, f"{DECISION}/set_parameters")
 
-    async def request(self, name: str) -> Answer:
-        """Ask the mission for something by its name."""
-        response = await _call(self._triggers[name], Trigger.Request())
+    async def request(self, owner: str, name: str) -> Answer:
+        """Ask the mission of a node for something by its name."""
+        client = self._triggers.get((owner, name))
+        if client is None:
+            return Answer(False, f"{name}: {owner} does not offer it")
+        response = await _call(client, Trigger.Request())
         if response is None:
-            return Answer(False, f"{name}: no answer from {DECISION}")
+            return Answer(False, f"{name}: no answer from {owner}")
         refused = "" if response.success else "not possible now; "
         return Answer(response.success, f"{refused}{response.message}")
 

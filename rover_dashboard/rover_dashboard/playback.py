@@ -26,13 +26,17 @@ PERIOD = 0.05  # [s] between two steps of a recording that plays
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 30.0)  # to choose from
 FAR = 5.0  # [s] a leap so long passes over the images in between
 AT_ONCE = 500  # messages between two moments in which viewers are served
+MAPS = (topics.WORLDMAP, topics.MAP)
 LARGE = (
+    *MAPS,
     topics.COMPRESSED_IMAGE,
     topics.VISION_IMAGE,
     COMPRESSED_VISION,
-    topics.WORLDMAP,
     topics.PLAN,
     topics.MISSION_MARKERS,
+    topics.HEAT_MARKERS,
+    topics.TEMPERATURE_1,
+    topics.TEMPERATURE_2,
 )
 
 
@@ -154,13 +158,13 @@ class Playback:
 
     def _read(self) -> None:
         """One pass over the whole recording."""
-        known = {self._prefix + topic: topic for topic in TYPES}
+        known = {self._name_of(topic): topic for topic in TYPES}
         for record in self._source.records(list(known)):
             topic = known[record.topic]
             self._last = record.log_time
             if topic in LARGE:
                 self._large_times[topic].append(record.log_time)
-                if topic == topics.WORLDMAP:
+                if topic in MAPS:
                     self._small.append(_Small(record.log_time, topic, record.publish_time))
                 continue
             message = decoded(topic, record.data)
@@ -170,6 +174,10 @@ class Playback:
                 self._frame_times.append(record.log_time)
         if not self._stamps:
             raise PlaybackError("the recording holds no frame of a rover")
+
+    def _name_of(self, topic: str) -> str:
+        """In the recording; a topic that begins with a slash is in no namespace."""
+        return topic if topic.startswith("/") else self._prefix + topic
 
     async def _go_to(self, position: float, anew: bool) -> None:
         """Take the messages up to a position; `anew`: from the first one on."""
@@ -182,7 +190,7 @@ class Playback:
         while self._taken < len(self._small) and self._small[self._taken].log_time <= until:
             small = self._small[self._taken]
             self._log_time = small.log_time
-            if small.topic == topics.WORLDMAP:
+            if small.topic in MAPS:
                 self.history.add_map(small.message)
             else:
                 self._intake.take(small.topic, small.message)
@@ -195,7 +203,7 @@ class Playback:
     def _restart(self) -> None:
         self._taken = 0
         self.history.restart()
-        self.slots.empty(set(SLOTS) - {"playback"})
+        self.slots.empty(set(SLOTS) - {"playback", "robot"})
         self._intake = Intake(self.slots, self.history)
 
     def _log_time_at(self, position: float) -> int:

@@ -116,10 +116,18 @@ def test_a_map_is_cropped_to_what_is_known_with_north_at_its_top():
     assert picture.shape == (11 + 6, 10 + 6)
     assert (facts["x"], facts["y"]) == (47.0, 97.0)
     assert (facts["width"], facts["height"]) == (16.0, 17.0)
-    assert facts["ground"] == 10
+    assert (facts["ground"], facts["resolution"]) == (10, 1.0)
     assert picture[3, 3] == 100  # the obstacle, in the upper part
     assert (picture[13, 3:13] == 0).all()
     assert picture[0, 0] == UNKNOWN
+
+
+def test_the_margin_of_a_map_is_in_cells():
+    cells = np.full((200, 200), -1, np.int8)
+    cells[100, 50] = 0
+    facts = map_of(StampedMap(0, GridMap(0.05, -1.0, -2.0, cells))).facts
+    assert (facts["width"], facts["height"]) == (pytest.approx(0.35), pytest.approx(0.35))
+    assert (facts["x"], facts["y"]) == (pytest.approx(1.35), pytest.approx(2.85))
 
 
 def test_a_map_without_known_ground_is_nothing():

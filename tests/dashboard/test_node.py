@@ -25,9 +25,14 @@ from rover_decision.node import DecisionNode
 
 WATCHED = {
     topics.COMPRESSED_IMAGE, topics.VISION_IMAGE, topics.WORLDMAP, topics.PLAN,
-    topics.MISSION_MARKERS, topics.COMMAND,
+    topics.MISSION_MARKERS, topics.COMMAND, topics.MAP, topics.HEAT_MARKERS, topics.HEAT_SOURCES,
+    topics.TEMPERATURE_1, topics.TEMPERATURE_2,
 }  # fmt: skip
-ALWAYS = {topics.ODOMETRY, topics.STATUS, topics.MISSION_STATE, topics.BRIDGE_STATE}
+ALWAYS = {
+    topics.ODOMETRY, topics.STATUS, topics.MISSION_STATE, topics.BRIDGE_STATE, topics.HEAT_STATE,
+    "tf",
+}  # fmt: skip
+OF_ROVER = {"camera", "vision", "map", "plan", "markers"}
 
 
 def heard_of(node: Node) -> set[str]:
@@ -123,7 +128,7 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
         assert ros.spin_until(lambda p=publisher: p.get_subscription_count() == 1)
         publisher.publish(message)
     slots = dashboard.slots
-    names = {*VIEWS, "mission", "simulator"}
+    names = {*OF_ROVER, "mission", "simulator"}
     assert ros.spin_until(lambda: all(slots.get(name) for name in names))
     assert slots.get("mission").value["state"] == "STOP"
     assert slots.get("simulator").value == "connected"
@@ -156,7 +161,7 @@ def asked_of(ros, dashboard: DashboardNode, ask) -> object:
 
 
 def test_requests_and_parameters_reach_the_decision_node(ros, dashboard, decision):
-    trigger = dashboard.requests._triggers["pause"]
+    trigger = dashboard.requests._triggers["decision_node", "pause"]
     assert ros.spin_until(lambda: trigger.service_is_ready())
     assert ros.spin_until(lambda: dashboard.requests._set.service_is_ready())
     assert ros.spin_until(lambda: dashboard.requests._get.service_is_ready())

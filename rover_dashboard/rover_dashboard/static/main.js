@@ -17,6 +17,7 @@ const link = document.getElementById("link");
 let simulator = null;
 let connected = "connecting";
 let recorded = false; // a recording is shown, not the graph
+let robot = "rover"; // whose mission is shown
 
 const parts = {
   playback: ({ data }) => {
@@ -25,20 +26,30 @@ const parts = {
     playback.show(data);
     showLink();
   },
+  robot: ({ data }) => {
+    if (!data) return;
+    robot = data;
+    document.documentElement.dataset.robot = robot;
+    plots.choose(robot);
+    showLink();
+  },
   camera: (message) => pictures.show("camera", message),
   vision: (message) => pictures.show("vision", message),
+  thermal_1: (message) => pictures.show("thermal_1", message),
+  thermal_2: (message) => pictures.show("thermal_2", message),
   map: (message) => {
     map.showMap(message);
     showGround(message.ground);
   },
   plan: ({ data }) => map.show("plan", data),
   markers: ({ data }) => map.show("markers", data),
+  sources: ({ data }) => map.show("sources", data),
   vehicle: ({ data }) => {
     map.show("vehicle", data);
     showVehicle(data);
   },
   mission: ({ data }) => {
-    showMission(data);
+    showMission(robot, data);
     if (data) timeline.advance(data.elapsed);
     const { dataset } = document.documentElement;
     dataset.elapsed = data?.elapsed ?? 0;
@@ -66,7 +77,8 @@ const controls = new Controls(connection);
 const playback = new PlaybackBar(connection);
 
 function showLink() {
-  const waiting = connected === "connected" && !recorded && simulator !== "connected";
+  const lacksSimulator = robot === "rover" && simulator !== "connected";
+  const waiting = connected === "connected" && !recorded && lacksSimulator;
   link.dataset.link = waiting ? "waiting" : connected;
   link.textContent = waiting
     ? "no simulator"

@@ -1,6 +1,6 @@
 // The map: known ground, and over it the rover, where it was, and where it wants to go.
 
-import { drawHome, drawOverlay, drawRover, drawScale, drawTrack } from "./map_symbols.js";
+import { drawHome, drawOverlay, drawRover, drawScale, drawSources, drawTrack } from "./map_symbols.js";
 import { channels, colour, onSchemeChange } from "./theme.js";
 import { boundsOf, View } from "./view.js";
 
@@ -12,8 +12,9 @@ export class MapView {
     this.track = [];
     this.plan = null;
     this.markers = null;
+    this.sources = null; // of heat
     this.vehicle = null;
-    this.picture = null; // {x, y, width, height [m], grey: ImageData, image: canvas}
+    this.picture = null; // {x, y, width, height, resolution [m], grey: ImageData, image: canvas}
     this.waiting = false;
     new ResizeObserver(() => this.redraw()).observe(this.canvas);
     onSchemeChange(() => {
@@ -32,8 +33,8 @@ export class MapView {
     if (!message.content) {
       this.picture = null;
     } else {
-      const { x, y, width, height } = message;
-      const picture = { x, y, width, height, grey: await greyOf(message.content) };
+      const { x, y, width, height, resolution } = message;
+      const picture = { x, y, width, height, resolution, grey: await greyOf(message.content) };
       paint(picture);
       this.picture = picture;
     }
@@ -70,11 +71,12 @@ export class MapView {
     const rover = this.vehicle ? [[this.vehicle.x, this.vehicle.y]] : [];
     const bounds = boundsOf(this.picture, [...rover, ...this.track.slice(0, 1)]);
     if (!bounds) return;
-    const view = new View(bounds, width, height);
+    const view = new View(bounds, width, height, this.picture?.resolution ?? 1);
     this.drawPicture(context, view);
     drawTrack(context, view, this.track, this.markers?.breadcrumbs ?? []);
     drawHome(context, view, this.track[0]);
     drawOverlay(context, view, this.markers ?? {}, this.plan);
+    drawSources(context, view, this.sources ?? []);
     drawRover(context, view, this.vehicle);
     drawScale(context, view, width, height);
   }

@@ -3,7 +3,7 @@
 import { colour } from "./theme.js";
 
 const ROVER = 9; // [px] from its middle to its nose
-const SCALES = [1, 2, 5, 10, 20, 50, 100]; // [m]
+const SCALES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100]; // [m]
 const SCALE_LENGTH = 110; // [px] at most
 
 // The breadcrumbs lie on the track: wider dots below it.
@@ -26,6 +26,7 @@ export function drawHome(context, view, home) {
 
 // markers: points by namespace, as in mission_markers
 export function drawOverlay(context, view, markers, plan) {
+  for (const point of markers.examined ?? []) dot(context, view.at(point), 1.6, "examined");
   for (const point of markers.frontiers ?? []) ring(context, view.at(point), 4, 2, "frontier");
   line(context, view, plan ?? markers.path ?? [], "plan", 3);
   for (const point of markers.goal ?? []) {
@@ -33,7 +34,26 @@ export function drawOverlay(context, view, markers, plan) {
     dot(context, view.at(point), 2.5, "goal");
   }
   for (const point of markers.blocked ?? []) cross(context, view.at(point), 5);
+  for (const corners of markers.outlines ?? []) outline(context, corners.map((each) => view.at(each)));
   for (const point of markers.rocks ?? []) diamond(context, view.at(point), 6);
+}
+
+// Of heat: {x, y, delivered}; bigger with evidence, with a tick when served.
+export function drawSources(context, view, sources) {
+  for (const source of sources) {
+    const [x, y] = view.at([source.x, source.y]);
+    const radius = 5 + 4 * Math.min(1, source.observations / 50);
+    dot(context, [x, y], radius, source.delivered ? "delivered" : "source");
+    ring(context, [x, y], radius, 1.5, "ink");
+    if (!source.delivered) continue;
+    context.beginPath();
+    context.moveTo(x - 0.5 * radius, y);
+    context.lineTo(x - 0.1 * radius, y + 0.4 * radius);
+    context.lineTo(x + 0.5 * radius, y - 0.4 * radius);
+    context.strokeStyle = "#fff";
+    context.lineWidth = 2;
+    context.stroke();
+  }
 }
 
 export function drawRover(context, view, vehicle) {
@@ -118,6 +138,21 @@ function cross(context, [x, y], size) {
   context.strokeStyle = colour("blocked");
   context.lineWidth = 3;
   context.stroke();
+}
+
+function outline(context, corners) {
+  context.beginPath();
+  corners.forEach(([x, y], index) => (index ? context.lineTo(x, y) : context.moveTo(x, y)));
+  context.closePath();
+  context.fillStyle = colour("outline");
+  context.globalAlpha = 0.25;
+  context.fill();
+  context.globalAlpha = 1;
+  context.setLineDash([5, 3]);
+  context.strokeStyle = colour("outline");
+  context.lineWidth = 1.5;
+  context.stroke();
+  context.setLineDash([]);
 }
 
 function diamond(context, [x, y], size) {

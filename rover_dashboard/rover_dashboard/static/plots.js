@@ -5,19 +5,32 @@ import { clock, colour, onSchemeChange } from "./theme.js";
 
 const HEIGHT = 120;
 const REDRAW = 250; // [ms]
-// In the order of the columns that the node sends, after the time.
-const PLOTS = [
-  { title: "Speed", unit: "m/s", colour: "blue", digits: 1 },
-  { title: "Steering, left positive", unit: "°", colour: "vermillion", digits: 0 },
-  { title: "Frame rate", unit: "1/s of wall time", colour: "green", digits: 0, floor: 0 },
-  { title: "Telemetry to command", unit: "ms", colour: "purple", digits: 1, floor: 0 },
-  { title: "Age of the map", unit: "s", colour: "orange", digits: 2, floor: 0 },
-];
+const RATE = { title: "Frame rate", unit: "1/s of wall time", colour: "green", digits: 0, floor: 0 };
+const AGE = { title: "Age of the map", unit: "s", colour: "orange", digits: 2, floor: 0 };
+// With the column that the node sends; the first one is the time.
+const PLOTS = {
+  rover: [
+    { column: 1, title: "Speed", unit: "m/s", colour: "blue", digits: 1 },
+    { column: 2, title: "Steering, left positive", unit: "°", colour: "vermillion", digits: 0 },
+    { column: 3, ...RATE },
+    { column: 4, title: "Telemetry to command", unit: "ms", colour: "purple", digits: 1, floor: 0 },
+    { column: 5, ...AGE },
+  ],
+  heat: [
+    { column: 1, title: "Speed", unit: "m/s", colour: "blue", digits: 2 },
+    { column: 2, title: "Turn rate, left positive", unit: "°/s", colour: "vermillion", digits: 0 },
+    { column: 3, title: "Sensor 1: warmest over median", unit: "K", colour: "purple", digits: 1, floor: 0 },
+    { column: 4, title: "Sensor 2: warmest over median", unit: "K", colour: "purple", digits: 1, floor: 0 },
+    { column: 5, ...RATE },
+    { column: 7, ...AGE },
+  ],
+};
 
 export class Plots {
   constructor() {
     this.parent = document.getElementById("plots");
-    this.columns = emptyColumns();
+    this.robot = "rover";
+    this.columns = [];
     this.dirty = false;
     this.make();
     onSchemeChange(() => this.make());
@@ -26,21 +39,28 @@ export class Plots {
   }
 
   add({ restart, rows }) {
-    if (restart) this.columns = emptyColumns();
-    for (const row of rows) row.forEach((value, index) => this.columns[index].push(value));
+    if (restart) this.columns = [];
+    for (const row of rows) row.forEach((value, index) => (this.columns[index] ??= []).push(value));
     this.dirty = true;
+  }
+
+  // Whose plots are shown.
+  choose(robot) {
+    if (robot === this.robot) return;
+    this.robot = robot;
+    this.make();
   }
 
   make() {
     this.parent.replaceChildren();
-    this.plots = PLOTS.map((plot, index) => {
+    this.plots = PLOTS[this.robot].map((plot) => {
       const figure = document.createElement("figure");
       const title = document.createElement("h3");
       const value = document.createElement("output");
       title.append(`${plot.title} [${plot.unit}]`, value);
       figure.append(title);
       this.parent.append(figure);
-      const chart = new uPlot(options(plot, figure), this.data(index), figure);
+      const chart = new uPlot(options(plot, figure), this.data(plot.column), figure);
       chart.root.setAttribute("role", "img");
       chart.root.setAttribute("aria-label", `${plot.title} in ${plot.unit} over mission time`);
       return { ...plot, figure, value, chart };
@@ -48,16 +68,17 @@ export class Plots {
     this.dirty = true;
   }
 
-  data(index) {
-    return [this.columns[0], this.columns[index + 1]];
+  data(column) {
+    return [this.columns[0] ?? [], this.columns[column] ?? []];
   }
 
   redraw() {
     if (!this.dirty || document.hidden) return;
     this.dirty = false;
-    this.plots.forEach(({ chart, value, digits }, index) => {
-      chart.setData(this.data(index));
-      const last = this.columns[index + 1].at(-1);
+    this.plots.forEach(({ chart, value, digits, column }) => {
+      const data = this.data(column);
+      chart.setData(data);
+      const last = data[1].at(-1);
       value.textContent = last === undefined || last === null ? "–" : last.toFixed(digits);
     });
   }
@@ -67,10 +88,6 @@ export class Plots {
       chart.setSize({ width: figure.clientWidth, height: HEIGHT });
     }
   }
-}
-
-function emptyColumns() {
-  return [[], ...PLOTS.map(() => [])];
 }
 
 function options(plot, figure) {

@@ -1,18 +1,20 @@
 // Which part of the map frame a canvas shows: north up, the same scale in both directions.
 
-const STEP = 5; // [m] the view grows in steps, so that it does not creep
+const STEP = 5; // [cells] the view grows in steps, so that it does not creep
 const PADDING = 10; // [px]
 
 export class View {
-  // bounds: {left, bottom, right, top} [m]; size of the canvas [px of the style sheet]
-  constructor(bounds, width, height) {
-    const left = STEP * Math.floor(bounds.left / STEP);
-    const bottom = STEP * Math.floor(bounds.bottom / STEP);
-    const right = STEP * Math.ceil(bounds.right / STEP);
-    const top = STEP * Math.ceil(bounds.top / STEP);
+  // bounds: {left, bottom, right, top} [m]; size of the canvas [px of the style sheet];
+  // resolution: of the map's cells [m]
+  constructor(bounds, width, height, resolution) {
+    const step = STEP * resolution;
+    const left = step * Math.floor(bounds.left / step);
+    const bottom = step * Math.floor(bounds.bottom / step);
+    const right = step * Math.ceil(bounds.right / step);
+    const top = step * Math.ceil(bounds.top / step);
     this.scale = Math.min(
-      (width - 2 * PADDING) / Math.max(STEP, right - left),
-      (height - 2 * PADDING) / Math.max(STEP, top - bottom),
+      (width - 2 * PADDING) / Math.max(step, right - left),
+      (height - 2 * PADDING) / Math.max(step, top - bottom),
     ); // [px/m]
     this.x0 = width / 2 - (this.scale * (left + right)) / 2;
     this.y0 = height / 2 + (this.scale * (bottom + top)) / 2;

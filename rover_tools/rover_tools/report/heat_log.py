@@ -13,14 +13,13 @@ from burger_simulator.truth import Launch
 from burger_simulator.world.maze import Maze
 from rover_common.geometry import Pose
 from rover_common.types import GridMap
+from rover_heat.thermal.picture import Celsius, excess_of
 from rover_heat.types import HeatOverlay
 from rover_tools.evaluation.results import Result
 from rover_tools.report.track import StateChange, TrackBuilder, csv_of, tilt_of
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 BLANK = np.full((8, 8), math.nan, np.float32)
-
-Celsius = NDArray[np.float32]  # (8, 8) [C], row 0 on top, column 0 on the left
 
 
 @dataclass(frozen=True)
@@ -43,8 +42,7 @@ class HeatMoment:
     @property
     def excess(self) -> NDArray[np.float64]:
         """(2, 8) [K] of each column's warmest pixel over its sensor's median; NaN for none."""
-        frames = np.stack(self.thermal).astype(float)
-        return frames.max(axis=1) - np.median(frames, axis=(1, 2))[:, None]
+        return np.stack([excess_of(frame) for frame in self.thermal])
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import compose_points
+from rover_heat.thermal.picture import WARM, coloured
 from rover_heat.types import HeatSource
 from rover_tools.report.heat_drawing import map_drawing, maze_drawing
 from rover_tools.report.heat_log import HeatLog, HeatTrackPoint
@@ -51,7 +52,6 @@ TRUE = (
     Key("not examined", "orange"),
     Key("ramp", "yellow"),
 )
-WARM = 8.0  # [K] over the median that is shown brightest
 
 
 def heat_page(log: HeatLog, video: Video | None = None) -> str:
@@ -107,10 +107,8 @@ def heat_plots(track: tuple[HeatTrackPoint, ...]) -> list[Plot]:
 
 
 def thermal_strip(excess: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(8, n, 3) BGR: of each point (n, 8) [K], the sensor's left column on top."""
-    shown = np.nan_to_num(np.clip(excess / WARM, 0.0, 1.0)) * 255
-    image = cv2.applyColorMap(shown.astype(np.uint8).T, cv2.COLORMAP_INFERNO)
-    return np.asarray(image, np.uint8)
+    """(8, n, 3) RGB: of each point (n, 8) [K], the sensor's left column on top."""
+    return coloured(excess.T)
 
 
 def _maps(log: HeatLog) -> list[MapPanel]:
@@ -128,7 +126,7 @@ def _strips(log: HeatLog) -> list[Strip]:
         excess = log.excess[:, sensor - 1]
         if not np.isfinite(excess).any():
             continue
-        _, data = cv2.imencode(".png", thermal_strip(excess))
+        _, data = cv2.imencode(".png", cv2.cvtColor(thermal_strip(excess), cv2.COLOR_RGB2BGR))
         source = "data:image/png;base64," + base64.b64encode(data.tobytes()).decode()
         title = f"Thermal sensor {sensor}: its columns from left (top) to right, 0 to {WARM:g} K"
         strips.append(Strip(title, source))

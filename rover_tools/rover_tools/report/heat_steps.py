@@ -6,9 +6,10 @@ from dataclasses import replace
 
 from rover_common.geometry import Pose, angles_from_quaternion, compose, distance_between
 from rover_common.types import GridMap
+from rover_heat.thermal.picture import Celsius
 from rover_heat.types import HeatOverlay
 from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
-from rover_tools.report.heat_log import BLANK, ORIGIN, Celsius, HeatLogBuilder, HeatMoment
+from rover_tools.report.heat_log import BLANK, ORIGIN, HeatLogBuilder, HeatMoment
 from rover_tools.report.video.heat_scene import HeatSnapshot
 
 

@@ -10,9 +10,10 @@ import numpy as np
 from burger_simulator.world.maze import Maze
 from rover_common.geometry import Pose, compose_points, inverse
 from rover_common.types import GridMap
+from rover_heat.thermal.picture import Celsius, picture_of
 from rover_heat.types import HeatOverlay
 from rover_tools.report.heat_drawing import disc_of, patch_of, ramp_parts
-from rover_tools.report.heat_log import ORIGIN, Celsius, HeatMoment
+from rover_tools.report.heat_log import ORIGIN, HeatMoment
 from rover_tools.report.map_layers import Window
 from rover_tools.report.video.canvas import Canvas, TrackMemory
 from rover_tools.report.video.colours import (
@@ -30,7 +31,6 @@ from rover_tools.report.video.composition import MAP, PANELS
 from rover_tools.report.video.snapshot import Image
 
 THERMAL = 160  # [px] edge of a thermal picture
-WARM = 8.0  # [K] over the median that is shown brightest
 RING = 6.0 * np.array([(np.cos(a), np.sin(a)) for a in np.linspace(0.0, 2.0 * np.pi, 17)])  # [px]
 
 
@@ -117,10 +117,8 @@ class HeatScene:
 
 
 def thermal_picture(celsius: Celsius, size: int) -> Image:
-    """(size, size, 3) RGB of a frame (8, 8) [C]: from its median to WARM above it."""
+    """(size, size, 3) RGB of a frame; dark for none."""
     if np.isnan(celsius).any():
         return np.full((size, size, 3), PAGE, np.uint8)
-    shown = np.clip((celsius - np.median(celsius)) / WARM, 0.0, 1.0) * 255
-    large = cv2.resize(shown.astype(np.uint8), (size, size), interpolation=cv2.INTER_NEAREST)
-    coloured = cv2.applyColorMap(large, cv2.COLORMAP_INFERNO)
-    return np.asarray(cv2.cvtColor(coloured, cv2.COLOR_BGR2RGB), np.uint8)
+    how = cv2.INTER_NEAREST
+    return np.asarray(cv2.resize(picture_of(celsius), (size, size), interpolation=how), np.uint8)
