@@ -1,4 +1,4 @@
-"""Writes the truth of a run to a file, for scoring: no topic carries it."""
+"""The truth of a run as a file, for scoring: no topic carries it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-from burger_simulator.truth import Truth
+from burger_simulator.truth import Launch, Truth
+from rover_common.geometry import Pose
 
 
 class TruthFile:
@@ -25,3 +26,16 @@ class TruthFile:
 
     def close(self) -> None:
         self._file.close()
+
+
+def read_truth(path: Path) -> list[Truth]:
+    """Each tick that was written whole."""
+    lines = path.read_text().splitlines(keepends=True)
+    return [_truth_of(json.loads(line)) for line in lines if line.endswith("\n")]
+
+
+def _truth_of(data: dict) -> Truth:
+    launches = tuple(
+        Launch(**launch | {"pose": Pose(**launch["pose"])}) for launch in data["launches"]
+    )
+    return Truth(**data | {"pose": Pose(**data["pose"]), "launches": launches})

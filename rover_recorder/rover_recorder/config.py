@@ -13,3 +13,8 @@ class RecorderConfig:
         "", "folder to record into; empty for a new one below results, named by the time"
     )
     leave_out: str = parameter("nav_polar", "topics that are not recorded, separated by spaces")
+    mission: str = parameter(
+        "rover",
+        "whose topics have to be there before it is ready: rover or heat",
+        choices=("rover", "heat"),
+    )

@@ -54,9 +54,16 @@ LOG_PERIOD = 5.0  # [s] between two lines about messages that are left out
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 # The graph is recorded when these are: what a replay needs, and what each node makes.
 NEEDED = {
-    "bridge": (topics.COMPRESSED_IMAGE, topics.ODOMETRY, topics.STATUS),
-    "perception": (topics.WORLDMAP, topics.ROCKS),
-    "decision": (topics.COMMAND, topics.MISSION_STATE),
+    "rover": {
+        "bridge": (topics.COMPRESSED_IMAGE, topics.ODOMETRY, topics.STATUS),
+        "perception": (topics.WORLDMAP, topics.ROCKS),
+        "decision": (topics.COMMAND, topics.MISSION_STATE),
+    },
+    "heat": {
+        "robot": (topics.SCAN, topics.IMU, topics.ODOMETRY),
+        "navigator": (topics.MAP,),
+        "mission": (topics.HEAT_STATE, topics.HEAT_SOURCES, topics.HEAT_MARKERS),
+    },
 }
 
 
@@ -72,7 +79,9 @@ class RecorderNode(Node):
         # Topics that are not to be recorded, or cannot be.
         self._left_out = {self.resolve_topic_name(name) for name in config.leave_out.split()}
         self._seen: set[str] = set()  # image topics whose `/compressed` one may come yet
-        peers = {name: partial(self._records, needed) for name, needed in NEEDED.items()}
+        peers = {
+            name: partial(self._records, needed) for name, needed in NEEDED[config.mission].items()
+        }
         self._diagnostics = NodeDiagnostics(self, peers)
         wall = Clock(clock_type=ClockType.STEADY_TIME)
         self._clocked = [

@@ -19,8 +19,8 @@ from rover_common.frames import CAMERA_OPTICAL
 from rover_common.ros import conversions, qos
 from rover_common.types import Command, GridMap
 from rover_simulator.recordings.replay import ANSWER_TIMEOUT, NoAnswerError, Playback
+from rover_tools.runner.node_diagnostics import GraphNotReadyError
 from rover_tools.runner.node_in_domain import NodeInDomain
-from rover_tools.runner.node_watch import GraphNotReadyError
 from rover_tools.runner.recorded_run import FrameMessages
 
 READY_SECONDS = 10.0  # [s] for the nodes to know the player, and the player the nodes

@@ -6,12 +6,13 @@ import socket
 import time
 import webbrowser
 from pathlib import Path
+from typing import Any
 
 from rover_common.errors import RoverError
 from rover_dashboard.config import DashboardConfig
 from rover_tools.output import note
 from rover_tools.runner.graph import DASHBOARD, HOST, free_port, node_command
-from rover_tools.runner.run import Run
+from rover_tools.runner.run import ProcessRun
 
 LISTENING_SECONDS = 30.0  # [s] for the node to start
 POLL_SECONDS = 0.1  # [s]
@@ -21,7 +22,7 @@ class PageError(RoverError):
     """The live page did not start in time."""
 
 
-def start_page(run: Run, parameters_file: Path, open_page: bool) -> str:
+def start_page(run: ProcessRun[Any], parameters_file: Path, open_page: bool) -> str:
     """Start the node on its usual port, or on a free one where that is taken; the address.
 
     It keeps wall time, as its viewers do. Once it listens, the address is printed, and a browser
@@ -41,7 +42,7 @@ def start_page(run: Run, parameters_file: Path, open_page: bool) -> str:
     return address
 
 
-def _wait_listening(run: Run, port: int) -> None:
+def _wait_listening(run: ProcessRun[Any], port: int) -> None:
     end = time.monotonic() + LISTENING_SECONDS
     while True:
         run.processes.check()

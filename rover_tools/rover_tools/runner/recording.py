@@ -7,19 +7,21 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from rover_recorder.reader import FOLDER, Recording, open_recording
 from rover_tools.output import note
 from rover_tools.runner.graph import executable
-from rover_tools.runner.run import Run
+from rover_tools.runner.run import ProcessRun
 
 RECORDER = "recorder_node"
 
 
-def recorder_command(folder: Path) -> list[str]:
-    """The command that records the running graph into a folder."""
+def recorder_command(folder: Path, mission: str = "rover") -> list[str]:
+    """The command that records the running graph of a mission into a folder."""
     value = json.dumps(str(folder.absolute()), ensure_ascii=False)
-    return [executable("rover_recorder", RECORDER), "--ros-args", "-p", f"folder:={value}"]
+    command = [executable("rover_recorder", RECORDER), "--ros-args", "-p", f"folder:={value}"]
+    return [*command, "-p", f"mission:={mission}"]
 
 
 def load_recording(path: Path) -> Recording:
@@ -32,7 +34,7 @@ def load_recording(path: Path) -> Recording:
 
 
 @contextmanager
-def recording(run: Run, wanted: bool = True) -> Iterator[None]:
+def recording(run: ProcessRun[Any], wanted: bool = True, mission: str = "rover") -> Iterator[None]:
     """Record what happens in the block into the run's folder, in place of an older recording.
 
     The node ends while the graph still runs, so that its final state is recorded. Raises
@@ -43,7 +45,7 @@ def recording(run: Run, wanted: bool = True) -> Iterator[None]:
         return
     folder = run.folder / FOLDER
     shutil.rmtree(folder, ignore_errors=True)
-    run.processes.start(RECORDER, recorder_command(folder))
+    run.processes.start(RECORDER, recorder_command(folder, mission))
     run.wait_ready([RECORDER])
     run.processes.make_optional(RECORDER)  # a mission must not end with a full disk
     yield

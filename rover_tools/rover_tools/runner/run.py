@@ -2,34 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Generic, TypeVar
 
 from rover_tools.output import note
 from rover_tools.runner.domain import reserved_domain
 from rover_tools.runner.graph import HOST, NODES, default_parameters, free_port, start_graph
+from rover_tools.runner.node_diagnostics import DiagnosticsWatch
 from rover_tools.runner.node_watch import GraphWatch
 from rover_tools.runner.processes import Processes
 
 READY_SECONDS = 30.0  # [s] for all nodes to find each other
 
 
+W = TypeVar("W", bound=DiagnosticsWatch)
+
+
 @dataclass(frozen=True)
-class Run:
-    """A running graph, ready to be connected to."""
+class ProcessRun(Generic[W]):
+    """Processes in a domain of their own, and who watches them."""
 
     folder: Path  # where results go
-    host: str
-    port: int
     domain_id: int
     processes: Processes
-    watch: GraphWatch
+    watch: W
 
     def wait_ready(self, nodes: Collection[str] = NODES) -> None:
         """Until all these nodes are connected; raises GraphNotReadyError or ProcessDiedError."""
         self.watch.wait_ready(list(nodes), self.processes.check, READY_SECONDS)
+
+
+@dataclass(frozen=True)
+class Run(ProcessRun[GraphWatch]):
+    """The rover's running graph, ready to be connected to."""
+
+    host: str
+    port: int
+
+
+@contextmanager
+def reserved_run(folder: Path, watch: Callable[[int], W]) -> Iterator[ProcessRun[W]]:
+    """No process yet; everything ends with the block.
+
+    watch: makes the watch of a domain. Raises DomainError.
+    """
+    with reserved_domain() as domain_id:
+        environment = {"ROS_DOMAIN_ID": str(domain_id)}
+        with Processes(folder / "log", environment) as processes, watch(domain_id) as watching:
+            yield ProcessRun(folder, domain_id, processes, watching)
 
 
 @contextmanager
@@ -58,14 +81,9 @@ def started_graph(
 
     Raises DomainError.
     """
-    with reserved_domain() as domain_id:
-        environment = {"ROS_DOMAIN_ID": str(domain_id)}
-        port = free_port()
-        with (
-            Processes(folder / "log", environment) as processes,
-            GraphWatch(domain_id) as watch,
-        ):
-            parameters = parameters_file or default_parameters()
-            start_graph(processes, port, parameters, overrides or {}, nodes)
-            note(f"starting the graph; watch it with ROS_DOMAIN_ID={domain_id}")
-            yield Run(folder, HOST, port, domain_id, processes, watch)
+    port = free_port()
+    with reserved_run(folder, GraphWatch) as begun:
+        parameters = parameters_file or default_parameters()
+        start_graph(begun.processes, port, parameters, overrides or {}, nodes)
+        note(f"starting the graph; watch it with ROS_DOMAIN_ID={begun.domain_id}")
+        yield Run(folder, begun.domain_id, begun.processes, begun.watch, HOST, port)
