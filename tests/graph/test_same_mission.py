@@ -33,7 +33,7 @@ from rover_tools.evaluation.strategy import Strategy
 
 FRAME_STEPS = 5  # 10 frames a second
 FRAMES = 265  # up to a pickup
-CLASSIC_FRAMES = 120  # up to being stuck, as it stands before the sample
+CLASSIC_FRAMES = 120  # up to a pickup
 TOUR = Strategy()
 Answer = tuple[str, Mapping[str, Any]]
 
@@ -150,7 +150,7 @@ def drive_scene(
     ("strategy", "frames", "last"),
     [
         (TOUR, FRAMES, Command(pickup=True)),
-        (Strategy.parse("classic_b"), CLASSIC_FRAMES, Command(throttle=-1.0)),
+        (Strategy.parse("classic_b"), CLASSIC_FRAMES, Command(pickup=True)),
     ],
     ids=["tour", "classic_b"],
 )
