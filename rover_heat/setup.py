@@ -17,4 +17,7 @@ setup(
     description="The heat mission: find what is warm, deliver a payload to each, climb the ramp.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": ["heat_node = rover_heat.node:main"],
+    },
 )

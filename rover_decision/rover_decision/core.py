@@ -56,6 +56,10 @@ class Mission(Protocol[FrameT_contra, DecisionT_co, PlanT, OverlayT_co]):
     def idle(self) -> bool:
         """It has not begun."""
 
+    @property
+    def failed(self) -> bool:
+        """It cannot go on by itself."""
+
     def configure(self, config: Any) -> None:
         """Go on with other parameters from the next tick on."""
 

@@ -10,17 +10,19 @@ from rover_decision.types import Request
 
 
 class Outcome(IntEnum):
-    """How a goal ended; the values are those of rover_interfaces/RunMission's result."""
+    """How a goal ended; the values are those of the actions' results."""
 
-    HOME = 1
+    HOME = 1  # over, as the mission has it
     CANCELED = 2
     RESTARTED = 3
+    FAILED = 4
 
 
 REASONS = {
     Outcome.HOME: "the mission is over, the rover is home",
     Outcome.CANCELED: "canceled, the rover is home",
     Outcome.RESTARTED: "a new run has begun",
+    Outcome.FAILED: "the mission cannot go on",
 }
 
 
@@ -67,4 +69,4 @@ class MissionGoal:
             return Outcome.CANCELED if self._canceled else Outcome.HOME
         if self._core.mission.idle and self._canceled:
             return Outcome.CANCELED  # it never left, and no frame may ever come
-        return None
+        return Outcome.FAILED if self._core.mission.failed else None

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from rover_common.geometry import Pose
 from rover_common.sensor_types import SensorBatch, Twist
 from rover_common.types import FIRST_RUN, GridMap, Run
 from rover_heat.config import HeatConfig
-from rover_heat.types import HeatFrame, PoseSource
+from rover_heat.types import HeatFrame
+from rover_navigation.transform_buffer import TransformBuffer
 
 
 class FrameAssembler:
     """Keeps the newest of what comes seldom, and says when a plan is due."""
 
-    def __init__(self, config: HeatConfig, poses: PoseSource) -> None:
+    def __init__(self, config: HeatConfig, poses: TransformBuffer) -> None:
         self._poses = poses
         self._plan_period = round(1e9 / config.control_rate)  # [ns]
         self._plan_due = 0  # [ns]
         self._grid: GridMap | None = None
-        self._pose_stamp = 0
         self._twist = Twist()
         self.run = FIRST_RUN
 
@@ -29,11 +28,11 @@ class FrameAssembler:
         """A new map has come."""
         self._grid = grid
 
-    def frame(self, batch: SensorBatch, pose: Pose | None) -> HeatFrame:
-        """The frame of a batch; pose: the newest of base_footprint in the map."""
+    def frame(self, batch: SensorBatch) -> HeatFrame:
+        """The frame of a batch, with the newest pose that the transforms tell."""
         if batch.odometry:
-            self._pose_stamp = batch.odometry[-1].stamp
             self._twist = batch.odometry[-1].twist
+        pose_stamp, pose = self._poses.latest() or (0, None)
         due = batch.stamp >= self._plan_due and self._grid is not None and pose is not None
         if due:
             self._plan_due = batch.stamp + self._plan_period
@@ -41,7 +40,7 @@ class FrameAssembler:
             stamp=batch.stamp,
             poses=self._poses,
             pose=pose,
-            pose_stamp=self._pose_stamp,
+            pose_stamp=pose_stamp,
             grid=self._grid,
             scans=batch.scans,
             imus=batch.imus,

@@ -28,6 +28,7 @@ class InputWatch:
         self._apart_since: float | None = None
         self._time = 0.0
         self._last: Pose | None = None
+        self._pose_stamp = 0  # [ns]
 
     def update(self, frame: HeatFrame) -> None:
         """One tick."""
@@ -69,6 +70,9 @@ class InputWatch:
     def _compare_clocks(self, frame: HeatFrame) -> None:
         stamps = [last_ray(scan) for scan in frame.scans[-1:]]
         stamps += [imu.stamp for imu in frame.imus[-1:]]
+        if frame.pose_stamp != self._pose_stamp:
+            self._pose_stamp = frame.pose_stamp
+            stamps.append(frame.pose_stamp)
         if not stamps:
             return
         self.apart = max(abs(frame.stamp - stamp) for stamp in stamps) * 1e-9

@@ -20,7 +20,7 @@ class NavigatorConfig:
         500, "trajectories that the controller tries in a step", minimum=50, maximum=10000
     )
     goal_tolerance: float = parameter(
-        0.05, "[m] from a goal of the action that counts as there", minimum=0.01, maximum=1.0
+        0.08, "[m] from a goal of the action that counts as there", minimum=0.01, maximum=1.0
     )
     yaw_tolerance: float = parameter(
         0.08, "[rad] of the heading at a goal", minimum=0.02, maximum=3.2

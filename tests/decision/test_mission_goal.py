@@ -166,6 +166,6 @@ def test_one_goal_at_a_time_and_sensible_limits(running):
 
 
 def test_outcomes_are_those_of_the_action():
-    for outcome in Outcome:
+    for outcome in set(Outcome) - {Outcome.FAILED}:  # which this mission knows no way to
         assert getattr(RunMission.Result, outcome.name) == outcome.value
     assert RunMission.Result().outcome == RunMission.Result.UNKNOWN == 0

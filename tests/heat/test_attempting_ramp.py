@@ -93,6 +93,7 @@ def test_a_ramp_that_is_met_while_it_is_sought_is_climbed():
     driven.plan = HeatPlan(0)
     driven.until_state(State.ATTEMPTING_RAMP, 8.0)
     interrupted(driven)
+    driven.ticks(0.6, pitch=RAMP_PITCH)
     driven.plan = HeatPlan(0, approaches=(APPROACH,))
     driven.until_state(State.ATTEMPTING_RAMP, 30.0)
     driven.until_goal(APPROACH.pose)

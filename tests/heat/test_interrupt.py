@@ -24,12 +24,21 @@ def test_it_stops_marks_the_ramp_and_backs_to_level_ground():
     driven.move_to(Pose(2.8, 2.0, 0.0))
     first = driven.until_state(State.TILT_INTERRUPT, 1.0, pitch=RAMP_PITCH)
     assert first.twist == ZERO
-    assert len(first.hazards.strips) == len(first.hazards.discs) == 1
     assert driven.goal.status is GoalStatus.CANCELLED
+    marked = driven.ticks(0.6, pitch=RAMP_PITCH)[-1]
+    assert len(marked.hazards.strips) == len(marked.hazards.discs) == 1
     backing = driven.until(lambda made: made.twist != ZERO, 1.0, pitch=RAMP_PITCH)
     assert backing.twist.linear < 0.0
     driven.move_to(Pose(2.4, 2.0, 0.0))
-    assert driven.until_state(State.EXPLORING, 1.0).hazards == first.hazards
+    assert driven.until_state(State.EXPLORING, 1.0).hazards == marked.hazards
+
+
+def test_a_jolt_marks_nothing_and_costs_half_a_second():
+    driven = interrupted(exploring())
+    driven.until_state(State.EXPLORING, 0.8)
+    hazards = driven.tick().hazards
+    assert (hazards.strips, hazards.discs) == ((), ())
+    assert any("jolt" in notice for notice in driven.notices)
 
 
 def test_it_does_not_back_into_what_the_lidar_sees():
@@ -54,7 +63,7 @@ def test_a_robot_that_leans_on_a_wall_marks_no_ramp():
     driven = exploring()
     driven.move_to(Pose(3.85, 2.0, 0.0))
     interrupted(driven)
-    hazards = driven.tick().hazards
+    hazards = driven.ticks(0.6, pitch=RAMP_PITCH)[-1].hazards
     assert (hazards.strips, hazards.discs) == ((), ())
 
 

@@ -50,6 +50,10 @@ class HeatMission:
         return self._parts.begun is None
 
     @property
+    def failed(self) -> bool:
+        return self.state is State.FAILED
+
+    @property
     def parts(self) -> HeatParts:
         """For tests and reports; not to be written to."""
         return self._parts

@@ -58,7 +58,9 @@ class Trip:
             self.status = TripStatus.WAITING
 
     def update(self, time: float, navigator_drives: bool) -> None:
-        """One tick at a time [s]."""
+        """One tick at a time [s]; when another controller drives, the navigator does not."""
+        if not navigator_drives:
+            self.interrupt()
         if self.status is TripStatus.WAITING and navigator_drives and self._navigator.is_ready:
             assert self.goal is not None
             self._handle = self._navigator.go_to(self.goal, self._tolerance)

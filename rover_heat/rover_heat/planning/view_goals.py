@@ -114,14 +114,13 @@ def _gains(
     """(places, BINS) Faces that the sensors show together at each heading."""
     width = 2.0 * math.pi / BINS
     number = np.round(bearing / width).astype(int) % BINS
-    counts = np.zeros((places, BINS))
-    np.add.at(counts, (place, number), 1.0)
+    counts = np.bincount(place * BINS + number, minlength=places * BINS).reshape(places, BINS)
     headings = width * np.arange(BINS)
     shown = np.zeros((BINS, BINS), bool)  # bearing, heading
     for axis in axes:
         aside = headings[:, None] - headings[None] - axis
         shown |= np.abs(np.angle(np.exp(1j * aside))) <= FIELD - MARGIN_ANGLE
-    return counts @ shown
+    return counts.astype(float) @ shown.astype(float)  # of whole numbers: in any order the same
 
 
 def _in_fields(bearing: NDArray[np.float64], yaw: float, axes: list[float]) -> NDArray[np.bool_]:

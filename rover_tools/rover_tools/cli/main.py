@@ -23,7 +23,9 @@ TABLE = {
     "map": Entry(f"{COMMANDS}.map", "the world map of the running graph, without ros2"),
     "explain": Entry(f"{COMMANDS}.explain", "perception's stages on one image, as a picture"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
-    "heat": Entry("rover_tools.cli.heat.group", "the second robot's mission: mission, scoreboard"),
+    "heat": Entry(
+        "rover_tools.cli.heat.group", "the second robot's mission: demo, mission, scoreboard, sim"
+    ),
     "bench": Entry(
         "rover_tools.cli.bench.group", "graph, perception, decision, simulator or tours"
     ),

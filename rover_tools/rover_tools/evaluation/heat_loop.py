@@ -14,18 +14,22 @@ from numpy.typing import NDArray
 from burger_simulator.simulation import BurgerSimulation
 from burger_simulator.truth import Truth
 from rover_common.burger import BURGER
-from rover_common.geometry import Pose, compose
-from rover_common.sensor_types import Twist
+from rover_common.geometry import Pose, compose, through_quaternion
+from rover_common.sensor_types import SensorBatch, Twist
 from rover_common.types import GridMap
 from rover_heat.config import HeatConfig
 from rover_heat.frames import FrameAssembler
 from rover_heat.mission import HeatCore, make_core
 from rover_heat.mission.chart import State
+from rover_heat.mission.ownership import STAND
 from rover_heat.ramp.hazards import NO_HAZARDS
 from rover_heat.types import HeatDecision, HeatFrame, HeatOverlay
 from rover_navigation.burger_scale import BURGER_SCALE
-from rover_navigation.embedded_navigator import EmbeddedNavigator
+from rover_navigation.embedded_navigator import EmbeddedNavigator, NavigatorOutput
+from rover_navigation.navigator import Navigator
 from rover_navigation.navigator_config import NavigatorConfig
+from rover_navigation.reported_goal import ReportingNavigator
+from rover_navigation.transform_buffer import TransformBuffer
 
 ENDS = {State.DONE, State.FAILED}
 
@@ -64,18 +68,19 @@ class HeatLoop:
         navigation: NavigatorConfig | None = None,
         seed: int = 0,
         *,
-        core: Callable[[HeatConfig, EmbeddedNavigator], HeatCore] | None = None,
+        core: Callable[[HeatConfig, Navigator], HeatCore] | None = None,
     ) -> None:
         """`seed`: of the navigator's samples; `core` takes the place of the mission's own."""
         self.simulation = simulation
         self._config = config or HeatConfig()
-        self.navigator = EmbeddedNavigator(
-            BURGER, BURGER_SCALE, navigation or NavigatorConfig(), seed
-        )
+        settings = navigation or NavigatorConfig()
+        self.navigator = EmbeddedNavigator(BURGER, BURGER_SCALE, settings, seed)
+        self._goals = ReportingNavigator(self.navigator, settings.goal_tolerance)
+        self._poses = TransformBuffer()
         make = core or (lambda c, navigator: make_core(c, navigator, lockstep=True))
-        self.core = make(self._config, self.navigator)
+        self.core = make(self._config, self._goals)
         self.grid: GridMap | None = None
-        self._frames = FrameAssembler(self._config, self.navigator)
+        self._frames = FrameAssembler(self._config, self._poses)
         self._hazards = NO_HAZARDS
         self._twist: Twist | None = None
         self._launch = False
@@ -98,7 +103,7 @@ class HeatLoop:
             if not attempted:
                 ascent = max(ascent, truth.beyond_foot)
             if truth.time >= len(track) + 1.0 and step.frame.pose is not None:
-                track.append(self._poses(truth.pose, step.frame.pose))
+                track.append(self._placed(truth.pose, step.frame.pose))
             if watch is not None:
                 watch(step)
             if state in ENDS or truth.time >= time_limit:
@@ -118,23 +123,33 @@ class HeatLoop:
         """One tick: the robot moves, the sensors speak, the navigator and the mission decide."""
         batch = self.simulation.step(self._twist, self._launch)
         output = self.navigator.step(batch)
+        self._goals.report()
+        self._take_transforms(batch, output)
         if output.map is not None:
             self.grid = output.map
             self._frames.give_map(output.map)
-        frame = self._frames.frame(batch, output.pose)
+        frame = self._frames.frame(batch)
         if self.grid is not None:
             self.core.give_map(frame.stamp, self.grid)
         decision = self.core.step(frame)
         if decision.new_run:
             self._frames.begin_run(frame.stamp)
         redraw = output.map is not None or decision.hazards != self._hazards
-        if redraw and self.grid is not None and decision.hazards != NO_HAZARDS:
+        if redraw and self.grid is not None:
             self._hazards = decision.hazards
             self.navigator.set_hazards(decision.hazards.drawn_into(self.grid))
-        self._twist = output.twist if decision.twist is None else decision.twist
+        # Who drives is known to the navigator a tick after it was decided.
+        self._twist = output.twist or decision.twist or STAND
         self._launch = decision.launch
         return HeatStep(frame, decision, self._twist, self.simulation.truth)
 
-    def _poses(self, true: Pose, estimated: Pose) -> tuple[float, ...]:
+    def _take_transforms(self, batch: SensorBatch, output: NavigatorOutput) -> None:
+        """As they arrive by messages."""
+        for odometry in batch.odometry:
+            self._poses.add_odometry(odometry.stamp, through_quaternion(odometry.pose))
+        if output.map_to_odom is not None:
+            self._poses.add_correction(output.stamp, through_quaternion(output.map_to_odom))
+
+    def _placed(self, true: Pose, estimated: Pose) -> tuple[float, ...]:
         placed = compose(self._map_in_world, estimated)
         return (true.x, true.y, true.yaw, placed.x, placed.y, placed.yaw)

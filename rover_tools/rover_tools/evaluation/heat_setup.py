@@ -51,15 +51,19 @@ class HeatSetup:
         config = replace(load_preset(file or preset_file(preset)), **parameters)
         variant = variant or {}
         words = [f"{name.replace('_', '-')}-{value:g}" for name, value in variant.items()]
-        faults = {option: v for name, v in variant.items() for option in VARIANTS[name]}
         mounting = {name: getattr(config, name) for name in MOUNTING}
-        options = BurgerOptions(**mounting, **faults)
+        options = BurgerOptions(**mounting, **options_of(variant))
         return cls("+".join([file.stem if file else preset, *words]), config, options)
 
     def settings(self) -> dict[str, Any]:
         """What differs from the defaults."""
         options = _changed(self.options)
         return _changed(self.config) | {k: v for k, v in options.items() if k not in MOUNTING}
+
+
+def options_of(variant: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of the simulator by their names."""
+    return {option: value for name, value in variant.items() for option in VARIANTS[name]}
 
 
 def preset_file(name: str) -> Path:

@@ -6,14 +6,32 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rover_tools.evaluation.map_files import save_map_server_pair
+from rover_tools.evaluation.results import Result
 from rover_tools.report.heat_drawing import window_of
 from rover_tools.report.heat_log import HeatLog, heat_track_csv
 from rover_tools.report.heat_page import heat_map, heat_maze, heat_page
+from rover_tools.report.heat_truth import MAZE, HeatTruth
+from rover_tools.report.recorded_heat import read_heat_mission
 from rover_tools.report.recording_report import REPORT, TRACK
 from rover_tools.report.video.heat_scene import HeatScene, HeatSnapshot
 from rover_tools.report.video.mission_video import MOST_FRAMES, VIDEO, evenly, write_video
 
-MAZE = "maze.yaml"
+
+def write_heat_report(
+    folder: Path, recording: Path, title: str, truth: HeatTruth, result: Result | None = None
+) -> Result:
+    """Write the files of a recorded mission; a result that is not given is the mission's own.
+
+    Returns the result. Raises RecordingError.
+    """
+    mission = read_heat_mission(recording, truth)
+    result = result or mission.result()
+    log = mission.builder.log(
+        title, mission.grid, mission.overlay, result, truth.maze, truth.map_in_world,
+        truth.launches,
+    )  # fmt: skip
+    write_heat_files(folder, log, mission.snapshots)
+    return result
 
 
 def write_heat_files(folder: Path, log: HeatLog, snapshots: Sequence[HeatSnapshot]) -> None:

@@ -12,6 +12,7 @@ import yaml
 
 from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.output import note
+from rover_tools.report.heat_truth import MAZE, TRUTH
 from rover_tools.runner.graph import node_command
 from rover_tools.runner.node_heat_watch import SIMULATOR, HeatWatch
 from rover_tools.runner.run import ProcessRun, reserved_run
@@ -21,7 +22,7 @@ NODES = {
     "navigator_node": "rover_navigation",
     "heat_node": "rover_heat",
 }
-PARAMETERS, MAZE, TRUTH = "parameters.yaml", "maze.yaml", "truth.jsonl"
+PARAMETERS = "parameters.yaml"
 ANSWER_DEADLINE = 60.0  # [s] of wall time: a slow machine changes nothing
 
 HeatProcesses = ProcessRun[HeatWatch]

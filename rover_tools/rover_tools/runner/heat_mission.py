@@ -8,20 +8,23 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from burger_simulator.truth import Truth
-from burger_simulator.truth_file import read_truth
 from burger_simulator.world.maze import Maze
 from rover_common.geometry import Pose, compose
 from rover_heat.mission.chart import State
 from rover_heat.types import HeatOverlay
+from rover_recorder.errors import RecordingError
+from rover_recorder.reader import FOLDER
 from rover_tools.evaluation.heat_mission_result import HeatRun, heat_mission_result
 from rover_tools.evaluation.heat_run import SLACK
 from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.evaluation.heat_ticks import TickLog
 from rover_tools.evaluation.results import Result
-from rover_tools.output import write_result
+from rover_tools.output import note, write_result
 from rover_tools.progress import Progress
+from rover_tools.report.heat_files import write_heat_report
+from rover_tools.report.heat_truth import MAZE, HeatTruth
 from rover_tools.runner.graph import default_parameters
-from rover_tools.runner.heat_graph import MAZE, TRUTH, HeatProcesses, heat_graph
+from rover_tools.runner.heat_graph import HeatProcesses, heat_graph
 from rover_tools.runner.node_heat_watch import SIMULATOR, HeatWatch, Stamped, StateReport
 from rover_tools.runner.page import start_page
 from rover_tools.runner.recording import recording
@@ -55,13 +58,24 @@ def run_heat_graph(
             run.watch.resume_simulator()
             _wait(run, setup.config.time_limit)
             run.processes.end(SIMULATOR)  # only then is the truth written whole
-        ended = measured(run.watch, read_truth(folder / TRUTH), maze.start)
+    truth = HeatTruth.load(folder)
+    ended = measured(run.watch, truth.ticks, maze.start)
     result = heat_mission_result(maze, seed, setup, ended, time.monotonic() - start)
     write_result(folder, result)
+    if record:
+        _report(folder, f"{maze.name}, {setup.label}", truth, result)
     return result
 
 
-def measured(watch: HeatWatch, truths: list[Truth], map_in_world: Pose) -> HeatRun:
+def _report(folder: Path, title: str, truth: HeatTruth, result: Result) -> None:
+    """A recording that ended too early costs the report alone."""
+    try:
+        write_heat_report(folder, folder / FOLDER, title, truth, result)
+    except RecordingError as error:
+        note(f"no report: {error}")
+
+
+def measured(watch: HeatWatch, truths: Sequence[Truth], map_in_world: Pose) -> HeatRun:
     """What was reported, and what was true when it was."""
     last = watch.newest
     assert last is not None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any
 
 from nav_msgs.msg import OccupancyGrid
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -20,6 +19,7 @@ from rover_common.ros.transforms import pose_of_transform
 from rover_common.types import GridMap
 from rover_heat.mission.chart import State
 from rover_heat.types import HeatSource
+from rover_tools.report.recorded_places import sources_of
 from rover_tools.runner.node_diagnostics import DiagnosticsWatch
 
 SIMULATOR = "burger_node"
@@ -80,7 +80,7 @@ class HeatWatch(DiagnosticsWatch):
 
     @property
     def sources(self) -> tuple[HeatSource, ...]:
-        return heat_sources_in(self._sources)
+        return sources_of(self._sources)
 
     def resume_simulator(self) -> None:
         """Let the simulated time begin; raises ResumeError."""
@@ -120,17 +120,3 @@ class HeatWatch(DiagnosticsWatch):
                 self.corrections.append(stamped)
             elif pair == (frames.ODOM, frames.BASE_FOOTPRINT):
                 self.odometry.append(stamped)
-
-
-def heat_sources_in(message: HeatSourceArray) -> tuple[HeatSource, ...]:
-    """In the map."""
-    return tuple(_source_of(source) for source in message.sources)
-
-
-def _source_of(source: Any) -> HeatSource:
-    xx, xy, yx, yy = map(float, source.covariance)
-    at = source.position
-    return HeatSource(
-        source.id, at.x, at.y, (xx, xy, yx, yy), source.side, source.observations, source.peak,
-        source.delivered,
-    )  # fmt: skip

@@ -54,6 +54,11 @@ class SampleReturnMission:
     def idle(self) -> bool:
         return self.state is State.IDLE
 
+    @property
+    def failed(self) -> bool:
+        """Never: without plans it comes home by sight."""
+        return False
+
     def request(self, request: Request) -> bool:
         """Whether the mission can do what it is asked for."""
         if request is Request.PAUSE:

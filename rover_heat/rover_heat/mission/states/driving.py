@@ -13,7 +13,8 @@ from rover_heat.mission.parts import HeatParts
 from rover_heat.mission.tick import HeatBehavior, HeatTick
 
 PLAN_PERIODS, PLAN_EXTRA = 2.0, 2.0  # periods, and [s], after which a plan is too old
-NAVIGATOR_SILENT = 0.45  # [s]
+# [s] of ticks without a word of it: with the one before, it stands within 0.5 s of its death.
+NAVIGATOR_SILENT = 0.35
 COMMON = MOTION | {Trouble.clock_apart, Trouble.navigator_lost}
 PLANNED = COMMON | INPUTS - {Trouble.map_stale}
 

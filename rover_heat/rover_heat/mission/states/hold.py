@@ -25,7 +25,7 @@ class Hold(HeatBehavior):
         trouble = self._trouble(tick)
         if trouble is None and abs(tick.frame.twist.linear) < STANDS:
             return Event.inputs_restored
-        lost = trouble is Trouble.navigator_lost
+        lost = tick.health.navigator_silent > self._limits.navigator_silent
         deadline = NAVIGATOR_DEADLINE if lost else DEADLINE
         return Event.gave_up if tick.since > deadline else None
 

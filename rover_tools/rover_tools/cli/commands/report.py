@@ -28,20 +28,28 @@ def command(
     """Make the report, the video and the track of a recorded mission.
 
     RUN is a result folder, the folder of a recording, or its .mcap file, also of a run with the
-    Unity simulator; of several missions in it, the last one counts. Open report.html in a browser.
+    Unity simulator; of several missions in it, the last one counts. It may be of either robot; a
+    heat mission's result folder has the truth of its maze. Open report.html in a browser.
 
     \b
     Examples:
       ./rover report recordings/first
       ./rover report recordings/first --truth map_bw.png --samples docs/examples/samples.csv
     """
+    from rover_recorder.reader import open_recording
     from rover_tools.evaluation.results import Truth, summary
     from rover_tools.output import write_result
+    from rover_tools.report.heat_files import write_heat_report
+    from rover_tools.report.heat_truth import HeatTruth
+    from rover_tools.report.recorded_heat import holds_heat_mission
     from rover_tools.report.recording_report import REPORT, write_report
 
     known = Truth.load(truth, samples)
-    folder = result_folder("report", out)
-    result = write_report(folder, path, known, path.resolve().name)
+    folder, title = result_folder("report", out), path.resolve().name
+    if holds_heat_mission(open_recording(path)):
+        result = write_heat_report(folder, path, title, HeatTruth.load(path))
+    else:
+        result = write_report(folder, path, known, title)
     write_result(folder, result)
     print_result(result, as_json, summary(result))
     note(f"look at {folder / REPORT}")

@@ -8,8 +8,10 @@ from rover_tools.cli.lazy_group import Entry, LazyGroup
 
 HEAT = "rover_tools.cli.heat"
 TABLE = {
+    "demo": Entry(f"{HEAT}.demo", "a whole heat mission in a small maze, scored"),
     "mission": Entry(f"{HEAT}.mission", "one heat mission in a maze, to its end"),
     "scoreboard": Entry(f"{HEAT}.scoreboard", "many heat missions, and their table"),
+    "sim": Entry(f"{HEAT}.sim", "the second robot's simulator alone, as a node"),
 }
 
 
@@ -27,6 +29,7 @@ def command() -> None:
 
     \b
     Examples:
+      ./rover heat demo
       ./rover heat mission --seed 7
       ./rover heat scoreboard --worlds 1-10
     """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,8 +20,18 @@ if TYPE_CHECKING:
 
 FAMILIES = ("challenge", "large", "flat", "demo")  # those of burger_simulator
 PRESETS = ("heat", "reference", "page")  # the files of rover_bringup
-# Options of the simulator that make a variant, by the names that users write.
-VARIANTS = (
+PARAMETERS = (
+    click.option("--params", type=FILE, metavar="YAML",
+                 help="Parameters of heat_node instead of a preset."),
+    click.option("--time-limit", type=Real(10.0, 36_000.0), metavar="S",
+                 help="The mission's time limit [s], instead of the parameters'."),
+)  # fmt: skip
+# Of the simulator: first the maze, then variants of the robot by the names that users write.
+MAZE = (
+    click.option("--family", type=click.Choice(FAMILIES), default="challenge",
+                 show_default=True, metavar="NAME",
+                 help=f"Of the generated maze: {', '.join(FAMILIES)}."),
+    click.option("--world", type=FILE, metavar="YAML", help="A saved maze instead."),
     click.option("--scan-rate", type=click.Choice(["5", "10"]), metavar="N",
                  help="Turns of the lidar [1/s], 5 or 10.  [default: 10]"),
     click.option("--thermal-rate", type=click.Choice(["1", "10"]), metavar="N",
@@ -38,32 +48,44 @@ VARIANTS = (
 
 @dataclass(frozen=True)
 class HeatOptions:
-    """What is the same for one mission and for many."""
+    """In which maze, with which variant of the robot, by which parameters."""
 
     family: str
     world: Path | None
-    params: Path | None
-    time_limit: float | None  # [s]
     scan_rate: str | None
     thermal_rate: str | None
     thermal_delay: float | None  # [s]
     dead_sensor: str | None
     offset: float | None  # [K]
     box: bool
+    params: Path | None = None
+    time_limit: float | None = None  # [s]
 
-    def maze(self) -> Maze | None:
+    def saved_maze(self) -> Maze | None:
         """That of the file, None for a generated one; raises MazeError."""
         from burger_simulator.world.maze import Maze
 
         return None if self.world is None else Maze.load(self.world)
 
-    def setup(self, preset: str, **parameters: Any) -> HeatSetup:
+    def maze(self, seed: int) -> Maze:
+        """Raises MazeError."""
+        from burger_simulator.world.generator import generate_maze
+
+        return self.saved_maze() or generate_maze(seed, self.family)
+
+    def setup(self, preset: str) -> HeatSetup:
         """Raises PresetError."""
         from rover_tools.evaluation.heat_setup import HeatSetup
 
-        if self.time_limit is not None:
-            parameters["time_limit"] = self.time_limit
+        parameters = {} if self.time_limit is None else {"time_limit": self.time_limit}
         return HeatSetup.of(preset, self.params, self._variant(), **parameters)
+
+    def simulator(self) -> dict[str, Any]:
+        """Parameters of burger_node."""
+        from rover_tools.evaluation.heat_setup import options_of
+
+        maze = {"family": self.family} if self.world is None else {"world": self.world.absolute()}
+        return {**maze, **options_of(self._variant())}
 
     def _variant(self) -> dict[str, Any]:
         """What was asked for, by the names of heat_setup.VARIANTS."""
@@ -78,28 +100,26 @@ class HeatOptions:
         return {name: value for name, value in given.items() if value is not None}
 
 
+def maze_options(function: F) -> F:
+    """Maze and robot, which reach the function as `options`, a HeatOptions."""
+    return _with_options(function, MAZE)
+
+
 def heat_options(function: F) -> F:
-    """All of them, which reach the function as `options`, a HeatOptions."""
-    declared: Iterable[Callable[[Any], Any]] = (
-        click.option("--family", type=click.Choice(FAMILIES), default="challenge",
-                     show_default=True, metavar="NAME",
-                     help=f"Of the generated maze: {', '.join(FAMILIES)}."),
-        click.option("--world", type=FILE, metavar="YAML", help="A saved maze instead."),
-        click.option("--params", type=FILE, metavar="YAML",
-                     help="Parameters of heat_node instead of a preset."),
-        click.option("--time-limit", type=Real(10.0, 36_000.0), metavar="S",
-                     help="The mission's time limit [s], instead of the parameters'."),
-        *VARIANTS,
-    )  # fmt: skip
+    """The same with the mission's parameters."""
+    return _with_options(function, (*MAZE[:2], *PARAMETERS, *MAZE[2:]))
+
+
+def _with_options(function: F, declared: Sequence[Callable[[Any], Any]]) -> F:
     names = [field.name for field in fields(HeatOptions)]
 
     @functools.wraps(function)
     def with_options(**given: Any) -> Any:
-        options = HeatOptions(**{name: given.pop(name) for name in names})
+        options = HeatOptions(**{name: given.pop(name) for name in names if name in given})
         return function(options=options, **given)
 
     decorated: Any = with_options
-    for option in reversed(tuple(declared)):
+    for option in reversed(declared):
         decorated = option(decorated)
     return decorated  # type: ignore[no-any-return]
 

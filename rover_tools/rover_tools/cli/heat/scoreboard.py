@@ -53,6 +53,6 @@ def command(
     from rover_tools.scoreboard.run import Engine, run_scoreboard
 
     setups = {setup.label: setup for setup in map(options.setup, presets)}
-    jobs = make_heat_jobs(worlds, options.family, options.maze(), list(setups.values()))
+    jobs = make_heat_jobs(worlds, options.family, options.saved_maze(), list(setups.values()))
     folder = result_folder("heat-scoreboard", out)
     run_scoreboard(jobs, HEAT_BOARD, folder, Engine(scheduler, workers), as_json)

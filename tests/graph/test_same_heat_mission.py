@@ -1,0 +1,119 @@
+"""The heat mission in one process and as a graph of nodes: the same, tick for tick."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rclpy.node import Node
+from rover_interfaces.msg import HeatState
+
+from burger_simulator.node import BurgerNode
+from burger_simulator.simulation import TICK, BurgerSimulation
+from burger_simulator.truth import Truth
+from burger_simulator.world.maze import HeatSource, Maze, Ramp, SensorErrors, Wall
+from rover_common import topics
+from rover_common.geometry import Pose
+from rover_common.ros import qos
+from rover_common.ros.conversions import stamp_of
+from rover_heat.config import HeatConfig
+from rover_heat.conversions import heat_state_of
+from rover_heat.mission.chart import State
+from rover_heat.node import HeatNode
+from rover_navigation.navigator_config import NavigatorConfig
+from rover_navigation.node import NavigatorNode
+from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
+
+SEED, SAMPLES, NAVIGATOR_SEED = 3, 100, 5
+TICKS = 760  # up to the first launch
+MISSION = {"deliver": "at_once"}
+WEST, EAST, SIDE = -0.5, 2.2, 0.33  # [m] of the lane
+
+
+def lane() -> Maze:
+    """A source behind the robot, and a ramp before it, which it meets without having seen it."""
+    walls = (
+        Wall(WEST, -SIDE, EAST, -SIDE),
+        Wall(EAST, -SIDE, EAST, SIDE),
+        Wall(EAST, SIDE, WEST, SIDE),
+        Wall(WEST, SIDE, WEST, -SIDE),
+    )
+    source = HeatSource(x=WEST + 0.0025, y=0.0, normal=0.0, height=0.12, sigma=0.1, excess=10.0)
+    ramp, start = Ramp(0.3, 0.0, 0.0, "north-east"), Pose(0.0, 0.0, 0.0)
+    size = (EAST - WEST, 2 * SIDE)
+    return Maze("lane", *size, walls, (source,), ramp, start, 23.0, SensorErrors())
+
+
+def run_in_process() -> tuple[list[HeatStep], list[Truth]]:
+    simulation = BurgerSimulation(lane(), SEED)
+    settings = NavigatorConfig(samples=SAMPLES)
+    loop = HeatLoop(simulation, HeatConfig(**MISSION), settings, NAVIGATOR_SEED)
+    try:
+        steps = [loop.step() for _ in range(TICKS)]
+    finally:
+        loop.close()
+    return steps, [step.truth for step in steps]
+
+
+class Graph:
+    """Simulator, navigator and mission as nodes; what is true is taken from the simulator."""
+
+    def __init__(self, ros: Any, world: Path) -> None:
+        self.ros = ros
+        self.reports: list[HeatState] = []
+        self.truths: list[Truth] = []
+        watcher = ros.add(lambda **kwargs: Node("watcher", **kwargs))
+        watcher.create_subscription(HeatState, topics.HEAT_STATE, self.reports.append, qos.LATCHED)
+        settings = {"samples": SAMPLES, "seed": NAVIGATOR_SEED}
+        self.navigator = ros.add(NavigatorNode, lockstep=True, use_sim_time=True, **settings)
+        self.mission = ros.add(HeatNode, lockstep=True, use_sim_time=True, **MISSION)
+        lockstep = {"lockstep": True, "lockstep_with_mission": True, "answer_deadline": 60.0}
+        self.robot = ros.add(BurgerNode, seed=SEED, world=str(world), rate=0.0, **lockstep)
+        step = self.robot.simulation.step
+
+        def recorded(*arguments: Any) -> Any:
+            batch = step(*arguments)
+            self.truths.append(self.robot.simulation.truth)
+            return batch
+
+        self.robot.simulation.step = recorded  # type: ignore[method-assign]
+
+    def run(self) -> None:
+        assert self.ros.spin_until(lambda: len(self.truths) >= TICKS, timeout=400.0)
+
+
+@pytest.fixture
+def graph(ros, tmp_path) -> Graph:
+    lane().save(tmp_path / "lane.yaml")
+    return Graph(ros, tmp_path / "lane.yaml")
+
+
+def test_graph_and_loop_run_the_same_mission_bit_for_bit(graph):
+    steps, truths = run_in_process()
+    graph.run()
+    pairs = enumerate(zip(truths, graph.truths, strict=False))
+    assert [tick for tick, (loop, nodes) in pairs if loop != nodes][:3] == []
+    assert graph.mission._lockstep.missing == 0
+    said = {
+        step.frame.stamp: heat_state_of(step.frame.stamp, step.frame.run, step.decision)
+        for step in steps
+    }
+    known = [report for report in graph.reports if stamp_of(report.header.stamp) in said]
+    assert [said[stamp_of(report.header.stamp)] for report in known] == known
+    assert len(known) > TICKS * TICK
+    states = {report.state_name for report in known}
+    assert states >= {"INITIALIZING", "EXPLORING", "TILT_INTERRUPT", "LAUNCHING"}
+    assert len(truths[-1].launches) == 1
+
+
+def test_the_graph_goes_on_standing_without_its_navigator(graph):
+    """Nothing hangs, and the mission says what is missing."""
+    graph.robot._lockstep._deadline = 5.0
+    assert graph.ros.spin_until(lambda: len(graph.truths) >= 100, timeout=100.0)
+    graph.navigator._step_when_complete = lambda: None  # it lives, and says nothing
+    count = len(graph.truths)
+    assert graph.ros.spin_until(lambda: len(graph.truths) >= count + 30, timeout=100.0)
+    assert graph.mission._core.state is State.HOLD
+    assert graph.truths[-1].speed == pytest.approx(0.0, abs=0.01)
+    assert graph.mission._lockstep.missing == 1
