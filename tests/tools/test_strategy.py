@@ -26,16 +26,20 @@ def test_a_name_and_back():
 
 
 @pytest.mark.parametrize(
-    ("name", "way_home", "share"),
-    [("classic_a", "breadcrumbs", 0.98), ("classic_b", "bearing", 0.0)],
+    ("name", "way_home", "share", "mapped"),
+    [
+        ("classic_a", "breadcrumbs", 0.98, (30.0, 1.6)),  # all that it sees, in every frame
+        ("classic_b", "bearing", 0.0, (5.0, 0.012217)),  # 5 m, 0.7 degrees
+    ],
 )
-def test_a_classic_comes_with_its_perception_and_its_way_home(name, way_home, share):
+def test_a_classic_comes_with_its_perception_and_its_way_home(name, way_home, share, mapped):
     strategy = Strategy.parse(name)
     assert strategy.way_home == way_home
     assert str(strategy) == name
     config, perception = strategy.config(), strategy.perception()
     assert (config.nav_cell, config.complete_at, config.complete_rule) == (0.1, share, "any")
     assert perception.recipe == "baseline"
+    assert (perception.baseline_range, perception.baseline_tilt) == mapped
     assert Strategy().perception() == PerceptionConfig()
 
 

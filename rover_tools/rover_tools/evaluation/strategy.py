@@ -39,12 +39,14 @@ class Preset:
 
 
 BASELINE: dict[str, Any] = {"recipe": "baseline"}
+# A maps every frame, and all of it: without the range and the tilt limit that B has.
+UNLIMITED: dict[str, Any] = {"baseline_range": 30.0, "baseline_tilt": 1.6}
 COUNTED: dict[str, Any] = {"nav_cell": 0.1, "time_limit": NO_TIME_LIMIT}  # in its cells
 PRESETS = {
     "classic_a": Preset(
         "breadcrumbs",
         COUNTED | {"complete_at": 0.98, "complete_rule": "any"},
-        BASELINE,
+        BASELINE | UNLIMITED,
         knows_truth=True,
     ),
     "classic_b": Preset("bearing", COUNTED, BASELINE),
