@@ -14,6 +14,9 @@ from rover_navigation.scale import Scale
 
 BLOCKED_COST = 10.0  # times its length, for a step through a place where the robot got stuck since
 SAMPLES = 13  # points on which a shortcut is tried
+# Breadcrumbs of one place that are told apart, however often the robot comes back to it: the graph
+# grows with the ground that was driven, not with the time. A place is as wide as their spacing.
+VISITS = 4
 
 
 def breadcrumb_path(
@@ -29,33 +32,62 @@ def breadcrumb_path(
     """
     if len(breadcrumbs) < 2:
         return breadcrumbs
-    tree = KDTree(breadcrumbs)
-    first, second = _links(breadcrumbs, tree, costmap, scale)
-    cost = np.linalg.norm(breadcrumbs[first] - breadcrumbs[second], axis=1)
-    cell = costmap.geometry.nearest_cell_to(breadcrumbs[:, 0], breadcrumbs[:, 1])
+    kept, node = _places(breadcrumbs, scale.breadcrumb_spacing)
+    points = breadcrumbs[kept]
+    tree = KDTree(points)
+    first, second = _links(points, node, tree, costmap, scale)
+    cost = np.linalg.norm(points[first] - points[second], axis=1)
+    cell = costmap.geometry.nearest_cell_to(points[:, 0], points[:, 1])
     blocked = ~costmap.free[cell]
     cost[blocked[first] | blocked[second]] *= BLOCKED_COST
-    graph = csr_array((cost, (first, second)), shape=(len(breadcrumbs), len(breadcrumbs)))
+    graph = csr_array((cost, (first, second)), shape=(len(points), len(points)))
     _, predecessors = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
     nearest = int(tree.query(position)[1])
-    return _dense(breadcrumbs[path_nodes(predecessors, nearest)[::-1]], scale.breadcrumb_spacing)
+    return _dense(points[path_nodes(predecessors, nearest)[::-1]], scale.breadcrumb_spacing)
+
+
+def _places(
+    breadcrumbs: NDArray[np.float64], width: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The breadcrumbs (k,) that stay, and the one of them (n,) that each breadcrumb becomes.
+
+    The first ones of each place [m] stay; all later ones become the last of these.
+    """
+    _, place = np.unique(np.floor(breadcrumbs / width), axis=0, return_inverse=True)
+    order = np.argsort(place.ravel(), kind="stable")
+    count = np.bincount(place.ravel())
+    begin = (np.cumsum(count) - count).repeat(count)  # of its place in the order
+    visit = np.arange(len(order)) - begin
+    stays = np.empty(len(order), np.intp)
+    stays[order] = order[begin + np.minimum(visit, VISITS - 1)]
+    kept, node = np.unique(stays, return_inverse=True)
+    return kept, node.ravel()
 
 
 def _links(
-    breadcrumbs: NDArray[np.float64], tree: KDTree, costmap: Costmap, scale: Scale
+    points: NDArray[np.float64],
+    node: NDArray[np.intp],
+    tree: KDTree,
+    costmap: Costmap,
+    scale: Scale,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs of breadcrumbs between which the robot may drive."""
+    """Pairs of points (n, 2) [m] between which the robot may drive; it drove from node to node."""
+    steps = np.sort(np.stack([node[:-1], node[1:]], axis=1), axis=1)
+    driven = np.unique(_key(steps[steps[:, 0] < steps[:, 1]], len(points)))
     pairs = tree.query_pairs(scale.breadcrumb_shortcut, output_type="ndarray")
-    length = np.linalg.norm(breadcrumbs[pairs[:, 0]] - breadcrumbs[pairs[:, 1]], axis=1)
-    driven = np.diff(pairs, axis=1)[:, 0] == 1  # however far a jump it was
-    keep = driven | (length <= scale.breadcrumb_link)
+    length = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
+    keep = (length <= scale.breadcrumb_link) | np.isin(_key(pairs, len(points)), driven)
     short = np.flatnonzero(~keep)
-    starts, ends = breadcrumbs[pairs[short, 0]], breadcrumbs[pairs[short, 1]]
+    starts, ends = points[pairs[short, 0]], points[pairs[short, 1]]
     keep[short] = _clear(starts, ends, costmap, scale.shortcut_clearance)
+    jumps = np.divmod(np.setdiff1d(driven, _key(pairs, len(points))), len(points))
     first, second = pairs[keep].T
-    steps = np.linalg.norm(np.diff(breadcrumbs, axis=0), axis=1)
-    jumps = np.flatnonzero(steps > scale.breadcrumb_shortcut)
-    return np.append(first, jumps), np.append(second, jumps + 1)
+    return np.append(first, jumps[0]), np.append(second, jumps[1])
+
+
+def _key(pairs: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """One number per pair (n, 2) of the first `count` numbers."""
+    return np.asarray(pairs[:, 0] * count + pairs[:, 1])
 
 
 def _clear(

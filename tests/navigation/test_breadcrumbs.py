@@ -6,7 +6,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from maps import HALL, SCALE, UNKNOWN, costmap, grid
+from scipy.sparse.csgraph import dijkstra
 
+import rover_navigation.breadcrumb_path as module
 from rover_common.geometry import Pose
 from rover_navigation.breadcrumb_path import breadcrumb_path
 from rover_navigation.breadcrumbs import Breadcrumbs
@@ -59,6 +61,37 @@ def test_the_path_leads_around_a_place_where_the_robot_got_stuck():
     around = breadcrumb_path(trail, here, stuck, SCALE)
     assert np.hypot(*(around - (24.0, 17.0)).T).min() > 1.0
     assert np.hypot(*(around[-1] - trail[0])) < 0.1
+
+
+def test_the_graph_grows_with_the_ground_and_not_with_the_time(monkeypatch):
+    """A robot that wiggles in one place for half an hour before it goes on."""
+    sizes = []
+
+    def counted(graph, *arguments, **options):
+        sizes.append((graph.shape[0], graph.nnz))
+        return dijkstra(graph, *arguments, **options)
+
+    monkeypatch.setattr(module, "dijkstra", counted)
+    wiggle = [(20.0 + 0.6 * (i % 2), 20.0 + 0.003 * (i % 100)) for i in range(3000)]
+    before = [(x, 20.0) for x in np.arange(15.0, 20.0, 0.6)]
+    after = [(x, 20.0) for x in np.arange(20.6, 30.0, 0.6)]
+    trail, here = np.array(before + wiggle + after), (29.6, 20.0)
+    path = breadcrumb_path(trail, here, costmap(UNKNOWN, trail, body=here), SCALE)
+    once = np.array(before + after)
+    assert sizes[0][0] < len(once) + 20
+    assert sizes[0][1] < 2000
+    assert length(path) < 1.1 * length(once)
+    assert np.allclose(path[-1], trail[0])
+
+
+def test_a_robot_that_comes_back_along_its_trail_goes_on_from_where_it_left_it():
+    """Up and down a lane again and again, then into a side lane: no line through the wall."""
+    lane = [(float(x), 20.0) for x in np.arange(12.0, 40.0, 0.6)]
+    side = [(12.0, y) for y in np.arange(20.6, 35.0, 0.6)]
+    trail, here = np.array((lane + lane[::-1]) * 5 + side), (12.0, 34.9)
+    path = breadcrumb_path(trail, here, costmap(UNKNOWN, trail, body=here), SCALE)
+    assert np.hypot(*np.diff(path, axis=0).T).max() < 1.0
+    assert all(np.hypot(*(trail - point).T).min() < 0.5 for point in path)
 
 
 def test_a_trail_of_less_than_two_points_is_its_own_path():
