@@ -56,16 +56,20 @@ class HeatSummary:
                 "none false": share(lambda row: row["sources_false"] == 0),
                 "all delivered": share(lambda r: r["delivered"] == r["sources_total"]),
                 "launches right": share(lambda row: row["launches_wrong"] == 0),
+                "launches standing": share(lambda row: row["launches_moving"] == 0),
                 "no early ascent": share(lambda row: row["early_ascent"] <= EARLY_ASCENT),
                 "stops in time": share(stops_in_time),
                 "ramp done": share(lambda row: row["ramp_done"], with_ramp),
                 "no contact": share(lambda row: row["contacts"] == 0),
+                "one contact at most": share(lambda row: row["contacts"] <= 1),
+                "in time": share(lambda row: row["in_time"]),
                 "done": share(lambda row: row["done"]),
             },
             spreads={
                 "time [s]": (spread("time", max), 0),
                 "source error [m]": (spread("source_error_max", max), 3),
                 "launch error [m]": (spread("launch_error_max", max), 3),
+                "launch angle [deg]": (spread("launch_angle_max", max), 1),
                 "pose error [cm]": (spread("pose_rmse", max, 100.0), 1),
                 "walls right [%]": (spread("walls_right", min), 1),
                 "walls mapped [%]": (spread("walls_mapped", min), 1),
@@ -74,6 +78,7 @@ class HeatSummary:
                 "stop [s]": (spread("stop_seconds_max", max), 2),
                 "distance [m]": (spread("distance", max), 0),
                 "real time": (spread("times_real_time", min), 1),
+                "tick, p99 [ms]": (spread("tick_ms_p99", max), 1),
             },
         )
 
