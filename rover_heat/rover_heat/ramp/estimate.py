@@ -27,8 +27,8 @@ STRIDE, SEGMENT = 5, (0.04, 0.4)  # rays from one to another, and [m] between, o
 # Cosine of the angle between the rise and where the robot leans: with walls that tell the direction
 # only the sense is to be told, else all of it.
 ALONG_BETWEEN, ALONG = 0.5, 0.9
-# A robot that comes along the lane with one wheel beside the ramp leans to its side: the caster is up
-# already, and the pitch alone tells the sense. Standing, the mean is level within half of this.
+# A robot that comes along the lane with one wheel beside the ramp leans to its side: the caster is
+# up already, and the pitch alone tells the sense. Standing, the mean is level within half of this.
 ALONG_LANE, NOSE_UP = math.radians(30.0), 0.006  # [rad] off the lane, [rad]
 
 Points = NDArray[np.float64]

@@ -107,7 +107,8 @@ def _measured(maze: Maze, run: HeatRun) -> Result:
 HEAT_RESULT_KEYS = (
     "success", "done", "in_time", "reason", "time", "sources_total", "sources_found",
     "sources_false", "source_error_max", "delivered", "launches_wrong", "launches_moving",
-    "launch_error_max", "launch_angle_max", "ramp_done", "contacts", "early_ascent", "interrupts", "stop_seconds_max", "pose_rmse", "walls_right", "walls_mapped",
+    "launch_error_max", "launch_angle_max", "ramp_done", "contacts", "early_ascent", "interrupts",
+    "stop_seconds_max", "pose_rmse", "walls_right", "walls_mapped",
     "explored", "distance", "world", "seed", "parameters", "wall_seconds",
 )  # fmt: skip
 

@@ -12,9 +12,9 @@ from rover_tools.scoreboard.heat_table import HeatSummary
 
 FILE = "acceptance.md"
 NOTES = (
-    "Shares are of all missions, with their 95 % confidence interval (Wilson); a mission that raised "
-    "an error has achieved nothing. Three figures are mean / median / worst mission. **No** marks "
-    "what is not met; a share is judged without its interval."
+    "Shares are of all missions, with their 95 % confidence interval (Wilson); a mission that\n"
+    "raised an error has achieved nothing. Three figures are mean / median / worst mission.\n"
+    "**No** marks what is not met; a share is judged without its interval."
 )
 
 
