@@ -82,7 +82,7 @@ class HeatConfig:
     )
     ramp_rise: float = parameter(
         0.06,
-        "[rad] of pitch or roll from level in the mean of 0.3 s, beyond which the robot backs off",
+        "[rad] of tilt from level in the mean of 0.3 s, beyond which the robot backs off",
         minimum=0.02,
         maximum=0.5,
     )

@@ -1,7 +1,8 @@
-"""When the robot tilts: three rules on pitch and roll from level, as one number."""
+"""When the robot tilts: three rules on the tilt from level, as one number."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -27,9 +28,9 @@ class Lean:
     pitch: float = 0.0  # [rad]
 
     @property
-    def largest(self) -> float:
-        """[rad]"""
-        return max(abs(self.roll), abs(self.pitch))
+    def slope(self) -> float:
+        """[rad] Of the ground; a robot on a ramp's corner shares it between roll and pitch."""
+        return math.hypot(self.roll, self.pitch)
 
 
 class TiltMonitor:
@@ -62,7 +63,7 @@ class TiltMonitor:
         self._rates = [(at, rate) for at, rate in self._rates if at > self._newest - KEPT]
         self.lean = Lean(*self._meter.lean(self._newest - MEAN, self._newest))
         if self.measured:
-            self.share = max(self.lean.largest / self._config.ramp_rise, sudden)
+            self.share = max(self.lean.slope / self._config.ramp_rise, sudden)
 
     def set_level(self, stamp: int) -> None:
         """The robot has stood still up to a stamp [ns]: that is level, and no turn."""

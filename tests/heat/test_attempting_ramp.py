@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from driven_heat import APPROACH, MIDDLE, RAMP_PITCH, DrivenHeat
+from driven_heat import AIR, APPROACH, MIDDLE, RAMP_PITCH, SECOND, STEP, DrivenHeat
 from reached_heat import (
     at_ramp,
     exploring,
@@ -12,12 +12,13 @@ from reached_heat import (
 )
 
 from rover_common.geometry import Pose
-from rover_common.sensor_types import Twist
+from rover_common.sensor_types import ThermalFrame, Twist
 from rover_heat.config import HeatConfig
 from rover_heat.mission.chart import State
 from rover_heat.mission.ramp_attempt import Phase
 from rover_heat.planning.types import GoalKind, HeatGoal, HeatPlan
 from rover_heat.ramp.climb import Progress
+from rover_heat.types import HeatDecision
 from rover_navigation.navigator import GoalStatus
 
 ZERO, UP = Twist(), Twist(0.15, 0.0)
@@ -41,6 +42,28 @@ def test_it_approaches_turns_climbs_and_releases_the_last_payload():
     after = driven.until_state(State.DONE, 16.0, launches_done=1)
     assert after.progress.ramp_done
     assert after.progress.payloads == 3
+
+
+def left_alone(driven: DrivenHeat, seconds: float, **what) -> HeatDecision:
+    """The sensor that looks to the left says something; returns the last decision."""
+    for _ in range(round(seconds / STEP)):
+        frame = ThermalFrame(round(driven.time * SECOND), 1, AIR)
+        made = driven.tick(thermal=(frame,), **what)
+    return made
+
+
+def test_with_the_sensor_ahead_dead_it_turns_the_other_one_ahead_on_top():
+    driven = at_ramp()
+    driven.arrive()
+    driven.until(lambda made: made.twist is not None and made.twist.linear > 0.1, 2.0)
+    attempt_of(driven)._climb.progress = Progress.ON_TOP
+    assert left_alone(driven, 4.0).progress.payloads == 3
+    turning = left_alone(driven, 0.2, launches_done=1)
+    assert (turning.state, turning.twist.linear) == (State.ATTEMPTING_RAMP, 0.0)
+    assert turning.twist.angular < -0.1  # its left side comes ahead
+    driven.pose = Pose(driven.pose.x, driven.pose.y, driven.pose.yaw - driven.config.thermal_yaw_1)
+    assert left_alone(driven, 2.5).state is State.ATTEMPTING_RAMP
+    assert left_alone(driven, 1.0).state is State.DONE
 
 
 def test_on_the_way_to_the_ramp_a_tilt_interrupts():

@@ -114,6 +114,24 @@ def test_of_two_surfaces_the_nearer_wins_with_a_third_of_the_rays(near_rays, exp
     assert found.sharp == sharp
 
 
+@pytest.mark.parametrize("far", [1.5, 3.0])  # [m] within the reach of a fix, and beyond it
+def test_past_a_walls_end_no_fix_is_sharp(far):
+    half = CONFIG.heat_window
+    near = wall_at(0.33, half)[4:]  # the left half
+    beyond = wall_at(far, half)[:4]
+    found = make_fix(WARM, view(np.concatenate([near, beyond])), CONFIG)
+    assert found.range == pytest.approx(0.33, abs=0.01)
+    assert not found.sharp
+
+
+@pytest.mark.parametrize(("distance", "sharp"), [(0.33, False), (0.55, False), (0.7, True)])
+def test_one_warm_pixel_alone_is_no_patch_on_a_near_wall(distance, sharp):
+    alone = replace(WARM, alone=True)
+    wall = wall_at(distance, 0.5, 90)
+    assert make_fix(alone, view(wall), CONFIG).sharp == sharp
+    assert make_fix(WARM, view(wall), CONFIG).sharp
+
+
 def test_along_a_wall_no_fix_is_sharp():
     room = Room(np.array([[-3.0, 0.0, 3.0, 0.0]]))
     for yaw, sharp in ((-40.0, True), (-30.0, False)):

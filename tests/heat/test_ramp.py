@@ -43,6 +43,22 @@ def test_a_robot_that_backs_onto_a_ramp_knows_it_behind_itself():
     assert abs(wrap_angle(ramp.yaw - math.pi / 2)) < math.radians(2.0)
 
 
+@pytest.mark.parametrize(("aside", "roll"), [(0.22, 0.068), (-0.24, -0.092)])
+@pytest.mark.parametrize(
+    ("turned", "pitch", "rise"), [(0.1, -0.013, 1), (-0.2, -0.027, 1), (0.1, 0.013, -1)]
+)
+def test_one_wheel_beside_the_ramp_tells_its_rise_by_the_pitch(aside, roll, turned, pitch, rise):
+    north = math.pi / 2
+    ramp = met(FOOT[0] + aside, FOOT[1] + BEYOND, north + turned, roll=roll, pitch=pitch)
+    assert abs(wrap_angle(ramp.yaw - rise * north)) < math.radians(2.0)
+    assert ramp.x == pytest.approx(0.51, abs=0.03)
+    assert ramp.straight
+
+
+def test_one_wheel_up_without_pitch_does_not_tell_the_rise():
+    assert not met(FOOT[0], FOOT[1], math.pi / 2, roll=RISE, pitch=-0.003).straight
+
+
 def test_a_flank_that_is_met_across_the_strip_does_not_tell_the_rise():
     assert not met(0.3, 2.0, 0.0, pitch=-RISE, roll=0.01).straight
     assert met(0.3, 2.0, 0.0, roll=RISE, pitch=-0.03).straight

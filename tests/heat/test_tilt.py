@@ -52,6 +52,12 @@ def test_the_ramp_of_the_challenge_is_a_tilt_within_the_mean(rate, way):
     assert tilted.monitor.share < 0.1
 
 
+def test_a_slope_that_pitch_and_roll_share_is_a_tilt_as_soon_as_one_of_either():
+    slope = 1.1 * CONFIG.ramp_rise
+    shared = {"pitch": -slope * math.cos(0.8), "roll": slope * math.sin(0.8)}
+    assert Tilted().feed(1.0, **shared) == Tilted().feed(1.0, pitch=-slope) < 1.0
+
+
 def test_it_is_one_every_time_and_over_when_the_robot_is_level_again():
     tilted = Tilted()
     for _ in range(5):

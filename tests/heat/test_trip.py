@@ -74,6 +74,18 @@ def test_our_own_newer_goal_is_no_failure():
     assert second.pose == OTHER
 
 
+@pytest.mark.parametrize("drives", [True, False])
+def test_what_the_navigator_still_drives_to_ends_with_the_goal_that_is_to_replace_it(drives):
+    driven = Driven()
+    driven.start()
+    driven.trip.start(OTHER, 0.1, 10.0)
+    if drives:
+        driven.trip.cancel()
+    else:
+        driven.trip.update(driven.time, False)
+    assert [goal.status for goal in driven.navigator.goals] == [GoalStatus.CANCELLED]
+
+
 def test_a_goal_that_somebody_else_cancels_is_driven_again_some_times():
     driven = Driven()
     driven.start()

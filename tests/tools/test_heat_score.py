@@ -73,6 +73,8 @@ def test_each_source_is_served_from_where_it_belongs():
     score = score_launches(MAZE, (SERVED, ON_RAMP), 0.30)
     assert (score.delivered, score.wrong, score.on_ramp) == (2, 0, True)
     assert score.error_max == pytest.approx(0.0)
+    assert score.angle_max == pytest.approx(0.0)
+    assert score.moving == 0
 
 
 @pytest.mark.parametrize(
@@ -95,6 +97,7 @@ def test_a_launch_within_the_tolerances_serves():
     near = launch(Pose(0.41, 2.0, math.pi + math.radians(9.0)))
     assert score_launches(MAZE, (near,), 0.30).delivered == 1
     assert score_launches(MAZE, (near,), 0.30).error_max == pytest.approx(0.11)
+    assert math.degrees(score_launches(MAZE, (near,), 0.30).angle_max) == pytest.approx(9.0)
     assert score_launches(MAZE, (near,), 0.60).delivered == 0  # where it is to stand is a parameter
 
 
@@ -107,7 +110,8 @@ def test_a_source_at_the_ramp_is_served_from_the_ramp_alone():
     before = launch(Pose(3.0, 3.7, NORTH))  # 0.30 m before it, on the descent
     score = score_launches(MAZE, (before,), 0.30)
     assert (score.delivered, score.wrong, score.on_ramp) == (0, 1, False)
-    assert not score_launches(MAZE, (launch(ON_TOP, speed=0.1),), 0.30).on_ramp
+    driving = score_launches(MAZE, (launch(ON_TOP, speed=0.1),), 0.30)
+    assert (driving.on_ramp, driving.moving) == (False, 1)
 
 
 def test_without_a_source_at_it_the_ramp_delivers_to_none():
@@ -179,6 +183,7 @@ def test_a_mission_that_achieves_everything_is_a_success():
     result = result_of()
     assert result["success"]
     assert tuple(result) == HEAT_RESULT_KEYS == tuple(failed_heat_result("room-1", 1, "heat", "x"))
+    assert (result["launch_angle_max"], result["launches_moving"]) == (0.0, 0)
     assert (result["time"], result["delivered"], result["sources_found"]) == (250.0, 2, 2)
 
 
@@ -198,6 +203,7 @@ def test_a_mission_that_achieves_everything_is_a_success():
     ],
 )
 def test_one_thing_missing_is_no_success(changes):
+    assert result_of(**changes)["in_time"] == changes.keys().isdisjoint({"state", "time_limit"})
     assert not result_of(**changes)["success"]
 
 
@@ -213,4 +219,5 @@ def test_what_is_not_known_is_none():
     result = result_of(sources=(), truth=replace(TRUTH, launches=()), ticks=ticks_of())
     for key in ("source_error_max", "launch_error_max", "stop_seconds_max", "pose_rmse"):
         assert result[key] is None
+    assert result["launch_angle_max"] is None
     assert run_of().time == 250.0

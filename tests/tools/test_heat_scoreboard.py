@@ -18,6 +18,7 @@ from rover_tools.evaluation import heat_setup
 from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.scoreboard import run as scoreboard
 from rover_tools.scoreboard.board import as_text, summaries
+from rover_tools.scoreboard.heat_acceptance import acceptance_table
 from rover_tools.scoreboard.heat_board import HEAT_BOARD
 from rover_tools.scoreboard.heat_job import HeatJob, make_heat_jobs
 from rover_tools.scoreboard.heat_run import HEAT_ROW_KEYS, failed_heat_row
@@ -32,7 +33,7 @@ FILES = {".svg": b"<svg/>", ".csv": b"time\n", ".html": b"<!doctype html>"}
 def row_of(job: HeatJob, **changes) -> dict:
     """A success, in 250 s."""
     row = result_of() | {"world": job.world_name, "seed": job.seed, "times_real_time": 8.0}
-    return row | {"parameters": job.setup.label} | changes
+    return row | {"tick_ms_p99": 4.0, "parameters": job.setup.label} | changes
 
 
 def entry_of(seed: int, **changes) -> Entry:
@@ -145,7 +146,8 @@ def test_summary_by_hand():
         "success": (2, 6), "all sources found": (4, 6), "sources found": (9, 10),
         "none false": (4, 6), "all delivered": (4, 6), "launches right": (4, 6),
         "no early ascent": (4, 6), "stops in time": (4, 6), "ramp done": (3, 5),
-        "no contact": (4, 6), "done": (4, 6),
+        "launches standing": (5, 6), "no contact": (4, 6), "one contact at most": (4, 6),
+        "in time": (5, 6), "done": (4, 6),
     }  # fmt: skip
     assert (summary.missions, summary.failed) == (6, 1)
     assert summary.spreads["time [s]"][0].worst == 450.0
@@ -165,6 +167,54 @@ def test_the_page_shows_each_mission(tmp_path):
     assert page.count("<img") == 2
     columns = len(HEAT_BOARD.headings)
     assert all(len(HEAT_BOARD.cells(entry)) == columns for entry in entries)
+
+
+def criteria_missed(*entries: Entry) -> set[str]:
+    """The figures of the table that carry the mark."""
+    lines = acceptance_table([HeatSummary.of("heat", "challenge", entries)]).splitlines()
+    return {
+        line.split("|")[1].strip() for line in lines if line.startswith("|") and "**No**" in line
+    }
+
+
+@pytest.mark.parametrize(
+    ("changes", "missed"),
+    [
+        ({}, set()),
+        ({"stop_seconds_max": None, "walls_right": None, "pose_rmse": None}, set()),
+        ({"success": False}, {"whole mission: success"}),
+        ({"sources_found": 1}, {"all sources found, each within 0.15 m",
+                                "sources found within 0.15 m"}),
+        ({"sources_false": 1}, {"no false source"}),
+        ({"launches_wrong": 1}, {"each payload at its stand-off pose, facing, standing"}),
+        ({"launches_moving": 1}, {"no launch while moving"}),
+        ({"early_ascent": 0.16}, {"no early ascent: 0.15 m beyond the foot at most"}),
+        ({"stop_seconds_max": 0.35}, {"stands within 0.3 s of each interrupt"}),
+        ({"ramp_done": False}, {"ramp: stands on top, nothing touched, payload released"}),
+        ({"contacts": 1}, {"no contact"}),
+        ({"contacts": 2}, {"no contact", "one contact at most"}),
+        ({"walls_right": 96.0}, {"map: cells within 0.05 m of a wall [%]"}),
+        ({"pose_rmse": 0.031}, {"pose error, rms [cm]"}),
+        ({"time": 481.0}, {"time [s]"}),
+        ({"in_time": False}, {"ended before the time limit"}),
+        ({"times_real_time": 4.9}, {"times real time, one core"}),
+        ({"tick_ms_p99": 10.5}, {"a tick's time, 99 % [ms]"}),
+    ],
+)  # fmt: skip
+def test_the_acceptance_table_marks_what_is_not_met(changes, missed):
+    assert criteria_missed(entry_of(1, **changes)) == missed
+
+
+def test_the_acceptance_table_has_a_column_for_each_set_of_parameters(tmp_path):
+    reference = HeatJob(HeatSetup("reference"), 1, "challenge")
+    row = row_of(reference, success=False)
+    entries = [entry_of(1), failed_entry(2),
+               Entry(reference.name, reference.settings(), False, row)]  # fmt: skip
+    write_report(tmp_path, HEAT_BOARD, entries, summaries(HEAT_BOARD, entries))
+    table = (tmp_path / "acceptance.md").read_text()
+    assert "| heat, challenge: 2 missions " in table
+    assert "| reference, challenge: 1 missions " in table
+    assert "| 1 of 2 (9-91 %) **No** " in table
 
 
 # The command, with missions made up

@@ -108,7 +108,7 @@ class Launch:
         still = (
             abs(twist.linear) < STILL_SPEED
             and parts.tilt.turn_now < STILL_TURN
-            and parts.tilt.lean.largest < FIT_TILT
+            and parts.tilt.lean.slope < FIT_TILT
         )
         if not still:
             self._still_since = None

@@ -96,7 +96,7 @@ class HeatParts:
         if pose is not None:
             self.start = self.start or pose
             self.slip.update(time, pose, frame.twist.linear)
-            level = self.tilt.lean.largest < FIT_TILT
+            level = self.tilt.lean.slope < FIT_TILT
             self.track.update(pose, level)
             self.trail.drop(pose)
         self.agenda.update((time - self.begun) / self.time_limit)

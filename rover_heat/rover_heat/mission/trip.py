@@ -38,9 +38,12 @@ class Trip:
         self.reason = ""  # why it failed
 
     def start(self, pose: Pose, tolerance: float, planned: float) -> None:
-        """Drive there, within `tolerance` [m]; planned: [s] it should take."""
+        """Drive there, within `tolerance` [m]; planned: [s] it should take.
+
+        The navigator drives to the goal before until it takes this one, or until that is canceled.
+        """
         self.goal, self._tolerance, self._planned = pose, tolerance, planned
-        self._handle, self._begun, self._returns = None, None, 0
+        self._begun, self._returns = None, 0
         self.status, self.reason = TripStatus.WAITING, ""
 
     def cancel(self) -> None:

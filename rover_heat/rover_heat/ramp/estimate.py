@@ -27,6 +27,9 @@ STRIDE, SEGMENT = 5, (0.04, 0.4)  # rays from one to another, and [m] between, o
 # Cosine of the angle between the rise and where the robot leans: with walls that tell the direction
 # only the sense is to be told, else all of it.
 ALONG_BETWEEN, ALONG = 0.5, 0.9
+# A robot that comes along the lane with one wheel beside the ramp leans to its side: the caster is
+# up already, and the pitch alone tells the sense. Standing, the mean is level within half of this.
+ALONG_LANE, NOSE_UP = math.radians(30.0), 0.006  # [rad] off the lane, [rad]
 
 Points = NDArray[np.float64]
 
@@ -63,6 +66,8 @@ def estimate_ramp(pose: Pose, lean: Lean, hits: Points) -> Ramp:
     rear = BURGER.caster_x if abs(uphill) > math.pi / 2 else 0.0  # what rose first
     x, y = pose.x + rear * math.cos(pose.yaw), pose.y + rear * math.sin(pose.yaw)
     yaw, between = _direction(x, y, wrap_angle(pose.yaw + uphill), hits)
+    ends = _end_first(pose, lean, yaw) if between else None
+    yaw = yaw if ends is None else ends
     middle = _middle_between_walls(x, y, yaw, hits)
     aside = 0.0 if middle is None else middle
     along = math.cos(wrap_angle(pose.yaw + uphill - yaw))
@@ -71,7 +76,7 @@ def estimate_ramp(pose: Pose, lean: Lean, hits: Points) -> Ramp:
         x - FIRED_BEYOND * cos - aside * sin,
         y - FIRED_BEYOND * sin + aside * cos,
         yaw,
-        straight=along >= (ALONG_BETWEEN if between else ALONG),
+        straight=ends is not None or along >= (ALONG_BETWEEN if between else ALONG),
         between=between,
     )
 
@@ -85,6 +90,14 @@ def _direction(x: float, y: float, uphill: float, hits: Points) -> tuple[float, 
     between = [axis for axis in axes if _middle_between_walls(x, y, axis, hits) is not None]
     sides = [wrap_angle(axis + turn) for axis in between or axes for turn in (0.0, math.pi)]
     return min(sides, key=lambda side: abs(wrap_angle(side - uphill))), len(between) == 1
+
+
+def _end_first(pose: Pose, lean: Lean, lane: float) -> float | None:
+    """[rad] Of the rise, for a robot that came up it along the lane [rad]; None for another one."""
+    comes = pose.yaw if lean.pitch < 0.0 else pose.yaw + math.pi
+    rise = min((lane, lane + math.pi), key=lambda yaw: abs(wrap_angle(yaw - comes)))
+    along = abs(wrap_angle(rise - comes)) <= ALONG_LANE
+    return wrap_angle(rise) if along and abs(lean.pitch) >= NOSE_UP else None
 
 
 def _wall_direction(hits: Points) -> float | None:

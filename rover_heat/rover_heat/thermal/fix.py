@@ -19,6 +19,7 @@ OTHERS = 0.25  # of a window's rays on other surfaces, with which the place is n
 SURFACE_DEPTH = 0.15  # [m] from the chosen surface's mean that a ray of it may lie
 GRAZING = math.cos(math.radians(80.0))  # of the ray with the wall's normal, at least
 SHARP_OBLIQUE = math.radians(55.0)  # off the wall's normal
+SMALLEST = 0.08  # [m] deviation of the smallest patch: one pixel alone is never narrower than that
 # Deviations that are added up. A pixel's width alone would be its share of sqrt(12).
 BEARING_SIGMA = PIXEL / math.sqrt(12.0)
 RANGE_SIGMA, RANGE_SIGMA_SHARE = 0.005, 0.01  # [m] and of the range, of the lidar
@@ -71,7 +72,8 @@ def make_fix(patch: WarmPatch, view: View, config: HeatConfig) -> Fix | None:
     offsets = view.hits - origin
     ranges = np.hypot(*offsets.T)
     aside = _wrapped(np.arctan2(offsets[:, 1], offsets[:, 0]) - bearing)
-    inside = np.flatnonzero((np.abs(aside) <= window) & (ranges <= config.heat_distance_max))
+    within = np.abs(aside) <= window
+    inside = np.flatnonzero(within & (ranges <= config.heat_distance_max))
     if len(inside) == 0:
         return None
     chosen = inside[_surface(ranges[inside], config.mode_bin)]
@@ -80,9 +82,11 @@ def make_fix(patch: WarmPatch, view: View, config: HeatConfig) -> Fix | None:
     middle = origin + distance * np.array([math.cos(direction), math.sin(direction)])
     face = _on_face(middle, view.hits, origin, direction)
     place, normal = face or (middle, wrap_angle(direction + math.pi))
-    others = np.abs(ranges[inside] - distance) > SURFACE_DEPTH
+    # Also what is too far away for a fix: a patch there shows past a wall's end.
+    others = np.abs(ranges[within] - distance) > SURFACE_DEPTH
     oblique = abs(wrap_angle(direction + math.pi - normal))
     sharp = face is not None and others.mean() < OTHERS and oblique <= SHARP_OBLIQUE
+    sharp = sharp and not (patch.alone and distance * PIXEL < SMALLEST)
     distance = float(np.hypot(*(place - origin)))
     covariance = _covariance(view, direction, distance, normal)
     return Fix(

@@ -5,6 +5,7 @@ It uses the same cores as the graph, one batch of the sensors after the other.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -42,6 +43,7 @@ class HeatStep:
     decision: HeatDecision
     twist: Twist | None  # that the wheels were told
     truth: Truth
+    cpu_seconds: float  # [s] of the core's time for the frame and the decision; plans are beside it
 
 
 @dataclass(frozen=True)
@@ -128,10 +130,12 @@ class HeatLoop:
         if output.map is not None:
             self.grid = output.map
             self._frames.give_map(output.map)
+        cpu = time.thread_time()
         frame = self._frames.frame(batch)
         if self.grid is not None:
             self.core.give_map(frame.stamp, self.grid)
         decision = self.core.step(frame)
+        cpu = time.thread_time() - cpu
         if decision.new_run:
             self._frames.begin_run(frame.stamp)
         redraw = output.map is not None or decision.hazards != self._hazards
@@ -141,7 +145,7 @@ class HeatLoop:
         # Who drives is known to the navigator a tick after it was decided.
         self._twist = output.twist or decision.twist or STAND
         self._launch = decision.launch
-        return HeatStep(frame, decision, self._twist, self.simulation.truth)
+        return HeatStep(frame, decision, self._twist, self.simulation.truth, cpu)
 
     def _take_transforms(self, batch: SensorBatch, output: NavigatorOutput) -> None:
         """As they arrive by messages."""

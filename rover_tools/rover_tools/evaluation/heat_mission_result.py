@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -55,17 +56,18 @@ def heat_mission_result(
     contacts = run.truth.contacts + run.truth.ramp_contacts
     ramp_done = None if maze.ramp is None else launches.on_ramp and run.truth.ramp_contacts == 0
     done, total = run.state is State.DONE, len(maze.sources)
+    in_time = done and run.time < setup.config.time_limit
     success = (
         sources.found == launches.delivered == total
         and sources.false == 0
         and ramp_done is not False
         and contacts == 0
-        and done
-        and run.time < setup.config.time_limit
+        and in_time
     )
     return {
         "success": success,
         "done": done,
+        "in_time": in_time,
         "reason": run.reason,
         "time": round(run.time, 1),
         "sources_total": total,
@@ -74,7 +76,9 @@ def heat_mission_result(
         "source_error_max": _rounded(sources.error_max),
         "delivered": launches.delivered,
         "launches_wrong": launches.wrong,
+        "launches_moving": launches.moving,
         "launch_error_max": _rounded(launches.error_max),
+        "launch_angle_max": _rounded(_degrees(launches.angle_max), 1),
         "ramp_done": ramp_done,
         "contacts": contacts,
         **_measured(maze, run),
@@ -101,9 +105,10 @@ def _measured(maze: Maze, run: HeatRun) -> Result:
 
 
 HEAT_RESULT_KEYS = (
-    "success", "done", "reason", "time", "sources_total", "sources_found", "sources_false",
-    "source_error_max", "delivered", "launches_wrong", "launch_error_max", "ramp_done", "contacts",
-    "early_ascent", "interrupts", "stop_seconds_max", "pose_rmse", "walls_right", "walls_mapped",
+    "success", "done", "in_time", "reason", "time", "sources_total", "sources_found",
+    "sources_false", "source_error_max", "delivered", "launches_wrong", "launches_moving",
+    "launch_error_max", "launch_angle_max", "ramp_done", "contacts", "early_ascent", "interrupts",
+    "stop_seconds_max", "pose_rmse", "walls_right", "walls_mapped",
     "explored", "distance", "world", "seed", "parameters", "wall_seconds",
 )  # fmt: skip
 
@@ -118,6 +123,10 @@ def failed_heat_result(world: str, seed: int, label: str, error: str) -> Result:
 def _places(sources: Sequence[HeatSource], map_in_world: Pose) -> np.ndarray:
     places = np.array([(source.x, source.y) for source in sources], float).reshape(-1, 2)
     return compose_points(map_in_world, places)
+
+
+def _degrees(angle: float | None) -> float | None:
+    return None if angle is None else math.degrees(angle)
 
 
 def _rounded(value: float | None, digits: int = 3) -> float | None:

@@ -47,6 +47,8 @@ class LaunchScore:
     delivered: int  # sources that have theirs
     wrong: int  # launches that served none
     error_max: float | None  # [m] from a stand-off pose, of those that were not on the ramp
+    angle_max: float | None  # [rad] off the source, of the same
+    moving: int  # launches of a robot that did not stand
     on_ramp: bool  # one was released standing on the ramp's flat part
 
 
@@ -75,7 +77,7 @@ def score_launches(maze: Maze, launches: Sequence[Launch], stand_off: float) -> 
     """
     on_walls = [source for source in maze.sources if not source.at_ramp]
     served: set[HeatSource] = set()
-    wrong, errors, on_ramp = 0, [], False
+    wrong, errors, angles, on_ramp = 0, [], [], False
     for launch in launches:
         if stands_on_flat(maze.ramp, launch.pose) and _stands(launch) and not on_ramp:
             on_ramp = True
@@ -83,12 +85,20 @@ def score_launches(maze: Maze, launches: Sequence[Launch], stand_off: float) -> 
         nearest = min(on_walls, key=lambda s: _aside(launch, s, stand_off), default=None)
         if nearest is not None:
             errors.append(_aside(launch, nearest, stand_off))
+            angles.append(_angle(launch, nearest))
         if nearest is None or nearest in served or not _serves(launch, nearest, stand_off):
             wrong += 1
         else:
             served.add(nearest)
     from_ramp = sum(source.at_ramp for source in maze.sources) if on_ramp else 0
-    return LaunchScore(len(served) + from_ramp, wrong, max(errors, default=None), on_ramp)
+    return LaunchScore(
+        delivered=len(served) + from_ramp,
+        wrong=wrong,
+        error_max=max(errors, default=None),
+        angle_max=max(angles, default=None),
+        moving=sum(not _stands(launch) for launch in launches),
+        on_ramp=on_ramp,
+    )
 
 
 def early_ascent(ticks: HeatTicks) -> float:
@@ -150,12 +160,17 @@ def occupied(grid: GridMap, map_in_world: Pose) -> Points:
 
 def _serves(launch: Launch, source: HeatSource, stand_off: float) -> bool:
     """Whether it was made at the source's stand-off pose, standing, and facing the source."""
-    faces = abs(bearing_to(launch.pose, source.x, source.y)) <= FACING
+    faces = _angle(launch, source) <= FACING
     return faces and _stands(launch) and _aside(launch, source, stand_off) <= AT_STAND_OFF
 
 
 def _stands(launch: Launch) -> bool:
     return abs(launch.speed) < STANDS and abs(launch.turn_rate) < TURNS
+
+
+def _angle(launch: Launch, source: HeatSource) -> float:
+    """[rad] Between the robot's heading and the source."""
+    return abs(bearing_to(launch.pose, source.x, source.y))
 
 
 def _aside(launch: Launch, source: HeatSource, stand_off: float) -> float:

@@ -49,6 +49,7 @@ class Board:
     pictures: str  # heading of the missions' pictures
     caption: Callable[[Result], tuple[str, str]]  # of a mission's picture: title and text
     scatter: Callable[[Sequence[Entry]], Scatter | None] = lambda _: None
+    texts: Callable[[Sequence[Any]], dict[str, str]] = lambda _: {}  # of the summaries, by file
 
 
 def summaries(board: Board, entries: Sequence[Entry]) -> list[Summary]:

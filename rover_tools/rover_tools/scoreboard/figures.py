@@ -54,8 +54,13 @@ class Spread:
             return cls(np.nan, np.nan, np.nan)
         return cls(float(np.mean(known)), float(np.median(known)), worst(known))
 
+    @property
+    def is_empty(self) -> bool:
+        """No mission has the figure."""
+        return bool(np.isnan(self.mean))
+
     def shown(self, digits: int) -> str:
         """Mean / median / worst."""
-        if np.isnan(self.mean):
+        if self.is_empty:
             return "-"
         return " / ".join(f"{value:.{digits}f}" for value in (self.mean, self.median, self.worst))

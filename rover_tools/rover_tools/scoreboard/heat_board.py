@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rover_tools.evaluation.results import Result
 from rover_tools.scoreboard.board import Board, Cell, number
+from rover_tools.scoreboard.heat_acceptance import FILE, acceptance_table
 from rover_tools.scoreboard.heat_run import failed_heat_row, run_heat_job
 from rover_tools.scoreboard.heat_table import LEGEND, HeatSummary, found_all
 from rover_tools.scoreboard.store import Entry
@@ -87,4 +88,5 @@ HEAT_BOARD = Board(
     cells=_cells,
     pictures="Mazes and maps",
     caption=_caption,
+    texts=lambda rows: {FILE: acceptance_table(rows)},
 )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import cv2
+import numpy as np
 
 from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
 from rover_tools.evaluation.heat_mission_result import (
@@ -25,7 +26,7 @@ from rover_tools.report.heat_steps import StepWatch
 from rover_tools.scoreboard.heat_job import HeatJob
 from rover_tools.scoreboard.missions import CompletedMission
 
-HEAT_ROW_KEYS = (*HEAT_RESULT_KEYS, "times_real_time")
+HEAT_ROW_KEYS = (*HEAT_RESULT_KEYS, "times_real_time", "tick_ms_p99")
 Watch = Callable[[HeatLoop, HeatStep], object]
 
 
@@ -66,18 +67,24 @@ def failed_heat_row(job: HeatJob, error: BaseException) -> Result:
     """The row of a mission that raised."""
     why = f"{type(error).__name__}: {error}"
     row = failed_heat_result(job.world_name, job.seed, job.setup.label, why)
-    return row | {"times_real_time": None}
+    return row | {"times_real_time": None, "tick_ms_p99": None}
 
 
 def _run(job: HeatJob, watch: StepWatch, on_step: Watch) -> HeatLog:
     """Run it; returns what its report shows."""
     start, cpu = time.monotonic(), time.process_time()
-    maze = job.world()
-    run = run_heat_mission(maze, job.seed, job.setup, on_step)
+    maze, ticks = job.world(), list[float]()
+
+    def see(loop: HeatLoop, step: HeatStep) -> None:
+        ticks.append(step.cpu_seconds)
+        on_step(loop, step)
+
+    run = run_heat_mission(maze, job.seed, job.setup, see)
     cpu = time.process_time() - cpu
     seconds = time.monotonic() - start
     result = heat_mission_result(maze, job.seed, job.setup, run, seconds)
     result["times_real_time"] = round(run.time / cpu, 1)
+    result["tick_ms_p99"] = round(1e3 * float(np.percentile(ticks, 99)), 2)
     watch.end(run.grid, run.overlay)
     return watch.log.log(
         f"{maze.name}, {job.setup.label}", run.grid, watch.with_faces(run.overlay), result, maze,

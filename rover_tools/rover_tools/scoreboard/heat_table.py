@@ -38,10 +38,6 @@ class HeatSummary:
         def share(achieved: Callable[[Result], bool], among: Sequence[Entry] = entries) -> Share:
             return Share.of(not entry.failed and achieved(entry.result) for entry in among)
 
-        def spread(key: str, worst: Callable[[list[float]], float], scale: float = 1.0) -> Spread:
-            known = (row[key] for row in rows if row[key] is not None)
-            return Spread.of((scale * value for value in known), worst)
-
         with_ramp = [entry for entry in entries if entry.failed or has_ramp(entry.result)]
         sources = sum(row["sources_total"] for row in ended)
         return cls(
@@ -56,25 +52,16 @@ class HeatSummary:
                 "none false": share(lambda row: row["sources_false"] == 0),
                 "all delivered": share(lambda r: r["delivered"] == r["sources_total"]),
                 "launches right": share(lambda row: row["launches_wrong"] == 0),
+                "launches standing": share(lambda row: row["launches_moving"] == 0),
                 "no early ascent": share(lambda row: row["early_ascent"] <= EARLY_ASCENT),
                 "stops in time": share(stops_in_time),
                 "ramp done": share(lambda row: row["ramp_done"], with_ramp),
                 "no contact": share(lambda row: row["contacts"] == 0),
+                "one contact at most": share(lambda row: row["contacts"] <= 1),
+                "in time": share(lambda row: row["in_time"]),
                 "done": share(lambda row: row["done"]),
             },
-            spreads={
-                "time [s]": (spread("time", max), 0),
-                "source error [m]": (spread("source_error_max", max), 3),
-                "launch error [m]": (spread("launch_error_max", max), 3),
-                "pose error [cm]": (spread("pose_rmse", max, 100.0), 1),
-                "walls right [%]": (spread("walls_right", min), 1),
-                "walls mapped [%]": (spread("walls_mapped", min), 1),
-                "contacts": (spread("contacts", max), 1),
-                "interrupts": (spread("interrupts", max), 1),
-                "stop [s]": (spread("stop_seconds_max", max), 2),
-                "distance [m]": (spread("distance", max), 0),
-                "real time": (spread("times_real_time", min), 1),
-            },
+            spreads=_spreads(rows),
         )
 
     def cells(self) -> dict[str, str]:
@@ -87,6 +74,30 @@ class HeatSummary:
             **{heading: str(share) for heading, share in self.shares.items()},
             **{heading: spread.shown(n) for heading, (spread, n) in self.spreads.items()},
         }
+
+
+def _spreads(rows: Sequence[Result]) -> dict[str, tuple[Spread, int]]:
+    """By heading, with the digits to show."""
+
+    def spread(key: str, worst: Callable[[list[float]], float], scale: float = 1.0) -> Spread:
+        known = (row[key] for row in rows if row[key] is not None)
+        return Spread.of((scale * value for value in known), worst)
+
+    return {
+        "time [s]": (spread("time", max), 0),
+        "source error [m]": (spread("source_error_max", max), 3),
+        "launch error [m]": (spread("launch_error_max", max), 3),
+        "launch angle [deg]": (spread("launch_angle_max", max), 1),
+        "pose error [cm]": (spread("pose_rmse", max, 100.0), 1),
+        "walls right [%]": (spread("walls_right", min), 1),
+        "walls mapped [%]": (spread("walls_mapped", min), 1),
+        "contacts": (spread("contacts", max), 1),
+        "interrupts": (spread("interrupts", max), 1),
+        "stop [s]": (spread("stop_seconds_max", max), 2),
+        "distance [m]": (spread("distance", max), 0),
+        "real time": (spread("times_real_time", min), 1),
+        "tick, p99 [ms]": (spread("tick_ms_p99", max), 1),
+    }
 
 
 def found_all(row: Result) -> bool:

@@ -16,10 +16,15 @@ REPORT = "report.html"
 def write_report(
     folder: Path, board: Board, entries: Sequence[Entry], rows: Sequence[Summary]
 ) -> None:
-    """Write report.html; its pictures and the missions' reports are links into the folder."""
+    """Write report.html, and the board's own texts.
+
+    The page's pictures and the missions' reports are links into the folder.
+    """
     page = render(
         "rover_tools.scoreboard", "scoreboard.html.j2",
         board=board, rows=[row.cells() for row in rows], entries=entries,
         scatter=board.scatter(entries), kinds=KINDS,
     )  # fmt: skip
     write_whole(folder / REPORT, page.encode())
+    for name, text in board.texts(rows).items():
+        write_whole(folder / name, text.encode())

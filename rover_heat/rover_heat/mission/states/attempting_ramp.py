@@ -10,6 +10,7 @@ from rover_heat.mission.launch import Launch
 from rover_heat.mission.parts import HeatParts
 from rover_heat.mission.pursuit import Pursuit
 from rover_heat.mission.ramp_attempt import Phase, RampAttempt
+from rover_heat.mission.ramp_look import RampLook
 from rover_heat.mission.states.driving import COMMON, Driving
 from rover_heat.mission.states.exploring import PLANS_WITHOUT_GOAL, RESTORED
 from rover_heat.mission.tick import HeatAction, HeatTick
@@ -25,6 +26,7 @@ class AttemptingRamp(Driving):
         self._pursuit = Pursuit(parts)
         self._attempt = RampAttempt(parts)
         self._launch: Launch | None = None
+        self._look: RampLook | None = None  # once the payload is released
 
     def enter(self, tick: HeatTick, before: State) -> None:
         self._parts.plan_since = tick.time
@@ -54,7 +56,9 @@ class AttemptingRamp(Driving):
             goal = self._pursuit.goal
             doing = "waits for a plan" if goal is None else f"seeks the ramp: {goal.kind.value}"
             return HeatAction(doing, None)
-        launch = self._launch
+        launch, look = self._launch, self._look
+        if look is not None:
+            return HeatAction(f"on the ramp: {look.reason}", look.twist)
         if launch is not None:
             return HeatAction(f"on the ramp: {launch.reason}", launch=launch.signalled_now)
         return HeatAction(self._attempt.phase.value, self._attempt.twist)
@@ -64,16 +68,21 @@ class AttemptingRamp(Driving):
         return not self._parts.ramps.ramps
 
     def _release(self, tick: HeatTick) -> None:
-        """On top: the last payload, if one is left."""
+        """On top: the last payload, if one is left, and a look at what is ahead."""
         parts = self._parts
         if self._launch is None:
             self._launch = Launch(parts)
             self._launch.begin(tick.time, None)
+        if self._look is not None:
+            self._look.update(tick)
+            parts.ramps.done = self._look.done
+            return
         if parts.agenda.payloads == 0 and not self._launch.signalled:
-            parts.ramps.done = True
+            self._look = RampLook(parts)
             return
         self._launch.update(tick, None)
         if self._launch.signalled_now:
             parts.agenda.payloads -= 1
             parts.notices.append("launch: the last payload, on the ramp")
-        parts.ramps.done = self._launch.done or self._launch.missed
+        if self._launch.done or self._launch.missed:
+            self._look = RampLook(parts)

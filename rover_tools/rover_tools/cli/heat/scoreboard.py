@@ -38,9 +38,10 @@ def command(
     """Run many heat missions, and see what they achieve how often.
 
     Each mission runs in one process without ROS: the same as ./rover heat mission, tick for tick.
-    A table of the figures by which the mission is accepted is printed; the result folder holds a
-    report (report.html), and a picture and a JSON file per mission. With the same --out, only the
-    missing missions run, and other presets and variants join the table.
+    A table of the figures by which the mission is accepted is printed; the result folder holds it
+    beside what is wanted (acceptance.md), a report (report.html), and a picture and a JSON file per
+    mission. With the same --out, only the missing missions run, and other presets and variants join
+    the tables.
 
     \b
     Examples:
