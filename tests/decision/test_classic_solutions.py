@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 import pytest
 from classic_frames import AWAY, ClassicMission, driving, ground, nav, rock_at
-from frames_by_hand import PLAN, exploring
-from maps import MIDDLE, request, straight_plan
+from frames_by_hand import PLAN, exploring, frame
+from maps import MIDDLE, UNKNOWN, request, straight_plan
 
 from rover_common.geometry import Pose
 from rover_common.ground_truth import TruthError
@@ -155,6 +155,17 @@ class TestCharts:
         mission.request(Request.PAUSE)
         mission.request(Request.RESUME)
         assert mission.tick().state is State.RETURN_HOME
+
+    @pytest.mark.parametrize(("explorer", "planned"), [("classic_a", False), ("frontier", True)])
+    def test_only_those_that_plan_have_plans_search_the_trail_for_a_path_home(
+        self, explorer, planned
+    ):
+        mission = ClassicMission(explorer, way_home="breadcrumbs")
+        mission.tick()
+        mission.request(Request.RETURN_HOME)
+        mission.tick()
+        shown = frame(mission.time)
+        assert mission.mission.plan_request(shown)(UNKNOWN).home_by_breadcrumbs is planned
 
     @pytest.mark.parametrize("explorer", CLASSICS)
     def test_called_home_it_leaves_the_rocks(self, explorer):

@@ -107,7 +107,7 @@ class SampleReturnMission:
     def plan_request(self, frame: Frame) -> MakeRequest[PlanRequest]:
         """What a plan is to be made of, as things stand at this frame; the map comes later."""
         parts, time = self._parts, frame.time
-        by_breadcrumbs = parts.home_paths.method.by_breadcrumbs
+        by_breadcrumbs = parts.home_paths.method.by_breadcrumbs and self._solution.breadcrumb_path
         return partial(
             PlanRequest,
             stamp=frame.stamp,

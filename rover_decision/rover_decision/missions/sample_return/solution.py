@@ -26,3 +26,4 @@ class Solution:
     commanded: Callable[[TickContext, Command], None] = _nothing  # what was decided
     # Time goes into a rock in these, which is given up after its deadline.
     approaching: frozenset[State] = frozenset()
+    breadcrumb_path: bool = True  # home along that of the plans; a classic has its own

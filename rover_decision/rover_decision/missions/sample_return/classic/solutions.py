@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from statemachine import StateChart
+
 from rover_common.vehicle import ROVER
 from rover_decision.missions.sample_return.chart import Event, State
 from rover_decision.missions.sample_return.classic import states_a as a
@@ -30,7 +32,7 @@ def classic_a(config: DecisionConfig, parts: Parts, drivers: Drivers) -> Solutio
         State.CIRCLE: a.PushA(memory),
         State.RETURN_HOME: a.ReturnHomeA(memory),
     }
-    return Solution(ClassicAChart, _with_standing(states), memory.observe, memory.commanded)
+    return _solution(ClassicAChart, states, memory)
 
 
 def classic_b(config: DecisionConfig, parts: Parts, drivers: Drivers) -> Solution:
@@ -44,13 +46,18 @@ def classic_b(config: DecisionConfig, parts: Parts, drivers: Drivers) -> Solutio
         State.CIRCLE: b.CircleB(memory),
         State.RETURN_HOME: b.ReturnHomeB(memory),
     }
-    return Solution(ClassicBChart, _with_standing(states), memory.observe, memory.commanded)
+    return _solution(ClassicBChart, states, memory)
 
 
-def _with_standing(states: dict[State, StateBehavior]) -> dict[State, StateBehavior]:
-    return states | {
+def _solution(
+    chart: type[StateChart], states: dict[State, StateBehavior], memory: a.MemoryA | b.MemoryB
+) -> Solution:
+    """With the states in which both stand."""
+    standing: dict[State, StateBehavior] = {
         State.IDLE: Standing("waits for the first frame", Event.start),
         State.PICKUP: Pickup(ROVER.standing_speed, stop()),
         State.DONE: Standing("the mission is over"),
         State.PAUSED: Standing("paused"),
     }
+    everything = states | standing
+    return Solution(chart, everything, memory.observe, memory.commanded, breadcrumb_path=False)
