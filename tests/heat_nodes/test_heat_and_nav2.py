@@ -27,7 +27,8 @@ def room_without(*parts: tuple[slice, slice]) -> GridMap:
 
 FAR, NEAR = slice(70, None), slice(0, 60)  # beyond 3.0 m, up to 2.5 m
 EAST, NORTH = room_without((NEAR, FAR)), room_without((FAR, NEAR))  # where a frontier lies
-BOTH = room_without((NEAR, FAR), (FAR, NEAR))
+WEST = (NEAR, slice(0, 18))  # short of 0.4 m
+THREE = room_without((NEAR, FAR), (FAR, NEAR), WEST)
 
 
 @pytest.fixture
@@ -61,16 +62,19 @@ def test_a_goal_is_given_once_and_driven_to(bench):
 @pytest.mark.parametrize("how", ["rejected", "aborted"])
 def test_a_goal_that_fails_is_left_alone_for_a_minute_and_another_is_chosen(bench, how):
     bench.server.rejects = how == "rejected"
-    explore(bench, BOTH)
+    explore(bench, THREE)
     if how == "rejected":
         bench.server.rejects = False
     else:
         bench.server.abort(208, "no valid path")
-    failed = place_of((bench.server.rejected or bench.server.goals)[0])
-    bench.until(lambda: len(bench.server.goals) > (how == "aborted"), 5.0)
-    assert is_east(bench.server.newest) != is_east(failed)
-    bench.seconds(2.0)
-    assert bench.state == "EXPLORING"
+    first = place_of((bench.server.rejected or bench.server.goals)[0])
+    before = len(bench.server.goals)
+    for count in (1, 2):  # all others come first
+        bench.until(lambda count=count: len(bench.server.goals) == before + count, 5.0)
+        assert math.dist(bench.server.newest, first) > 0.5
+        assert bench.state == "EXPLORING"
+        bench.seconds(1.5)
+        bench.server.succeed()
 
 
 def test_a_goal_that_our_own_newer_one_replaces_is_not_left_alone(bench):
@@ -90,8 +94,7 @@ def test_a_navigator_that_dies_and_is_back_in_time_gets_the_same_goal_again(benc
     goal = bench.server.newest
     bench.server.die()
     bench.until(lambda: bench.state == "HOLD", 0.5)
-    assert "navigator" in bench.reports[-1].reason
-    bench.wait(lambda: bench.velocities)
+    assert "navigator" in bench.reason
     bench.seconds(AWAY - 5.0)
     assert twist_of(bench.velocities[-1].twist) == Twist()
     assert bench.state == "HOLD"
@@ -114,4 +117,4 @@ def test_a_navigator_that_is_gone_for_good_is_a_failure(bench, how):
     bench.seconds(AWAY - 1.0)
     assert bench.state == "HOLD"
     bench.until(lambda: bench.state == "FAILED", 2.0)
-    assert "navigator" in bench.reports[-1].reason
+    assert "navigator" in bench.reason
