@@ -82,9 +82,7 @@ def embedded(given: dict[str, str]) -> Node:
     return node("rover_navigation", "navigator_node", given, [file_of("navigator.yaml")], True)
 
 
-def nav2(
-    given: dict[str, str], servers: dict[str, str], name: str, **values: str
-) -> list[Node]:
+def nav2(given: dict[str, str], servers: dict[str, str], name: str, **values: str) -> list[Node]:
     """Some of its servers, with values over those of the file, and the manager of their states."""
     files = [nav2_parameters(given), *([values] if values else [])]
     manager = f"lifecycle_manager_{name}"

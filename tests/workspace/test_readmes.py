@@ -7,7 +7,6 @@ import re
 from dataclasses import fields
 from enum import IntEnum
 from pathlib import Path
-from typing import Any
 
 import pytest
 from interface_files import interface_files, members_of
