@@ -111,7 +111,7 @@ def test_the_topics_are_those_that_the_nodes_publish(ros):
         assert of_readme == of_node
 
 
-@pytest.mark.parametrize("file", sorted(FOLDER.iterdir()), ids=lambda file: file.name)
+@pytest.mark.parametrize("file", sorted(FOLDER.glob("*.launch.py")), ids=lambda file: file.name)
 def test_the_launch_arguments_are_those_of_the_launch_file(file):
     arguments = constant_of(file, "ARGUMENTS")
     rows = table(BRINGUP, f"Launch arguments of `{file.name}`")
