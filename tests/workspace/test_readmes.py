@@ -7,10 +7,10 @@ import re
 from dataclasses import fields
 from enum import IntEnum
 from pathlib import Path
-from typing import Any
 
 import pytest
 from interface_files import interface_files, members_of
+from launch_files import FOLDER, constant_of
 from node_endpoints import PROFILES, endpoints, listed
 from rclpy.node import Node
 from readme_tables import ROOT, column, table
@@ -30,7 +30,7 @@ BRIDGE = ROOT / "rover_bridge" / "README.md"
 COMMON = ROOT / "rover_common" / "README.md"
 BRINGUP = ROOT / "rover_bringup" / "README.md"
 INTERFACES = ROOT / "rover_interfaces" / "README.md"
-LAUNCH = ROOT / "rover_bringup" / "launch" / "mission.launch.py"
+LAUNCH = FOLDER / "mission.launch.py"
 NODES = {
     "burger": BurgerNode,
     "bridge": BridgeNode,
@@ -111,28 +111,22 @@ def test_the_topics_are_those_that_the_nodes_publish(ros):
         assert of_readme == of_node
 
 
-def launch_constant(name: str) -> Any:
-    """A literal of the launch file, which cannot be imported where launch is not installed."""
-    for statement in ast.parse(LAUNCH.read_text()).body:
-        if isinstance(statement, ast.Assign) and ast.unparse(statement.targets[0]) == name:
-            return ast.literal_eval(statement.value)
-    raise AssertionError(f"{LAUNCH.name} has no {name}")
-
-
-def test_the_launch_arguments_are_those_of_the_launch_file():
-    arguments = launch_constant("ARGUMENTS")
-    rows = table(BRINGUP, "Launch arguments of `mission.launch.py`")
+@pytest.mark.parametrize("file", sorted(FOLDER.glob("*.launch.py")), ids=lambda file: file.name)
+def test_the_launch_arguments_are_those_of_the_launch_file(file):
+    arguments = constant_of(file, "ARGUMENTS")
+    rows = table(BRINGUP, f"Launch arguments of `{file.name}`")
     assert [row["argument"] for row in rows] == list(arguments)
     for row in rows:
         default, meaning = arguments[row["argument"]]
         if default is not None:  # a file of the package, by a substitution
             assert row["default"] == (default or "none")
         assert row["meaning"] == meaning
+        assert f"[{row['argument']}:=" in file.read_text() or row["argument"] == "map"
 
 
 def test_the_launched_nodes_are_those_of_the_launch_file():
     rows = table(BRINGUP, "Nodes")
-    assert {row["package"]: row["executable"] for row in rows} == launch_constant("NODES")
+    assert {row["package"]: row["executable"] for row in rows} == constant_of(LAUNCH, "NODES")
     assert all(row["node name"] == row["executable"] for row in rows)
 
 
@@ -145,7 +139,7 @@ def test_the_launch_file_starts_a_node_again_that_ends():
     (nodes,) = [call for call in calls if call["package"] == "package"]
     assert nodes["respawn"] == "True"
     assert nodes["respawn_delay"] == "RESPAWN_DELAY"
-    assert 0.0 < launch_constant("RESPAWN_DELAY") <= 5.0
+    assert 0.0 < constant_of(LAUNCH, "RESPAWN_DELAY") <= 5.0
 
 
 def test_the_bringup_files_are_all_listed():

@@ -14,10 +14,12 @@ import networkx
 import pytest
 import yaml
 
+from burger_simulator.config import BurgerConfig
 from rover_bridge.config import BridgeConfig
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_heat.config import HeatConfig
+from rover_navigation.node_config import NavigatorNodeConfig
 from rover_perception.config import PerceptionConfig
 from rover_recorder.config import RecorderConfig
 
@@ -33,8 +35,14 @@ CONFIGS = {
     "dashboard_node": DashboardConfig,
     "recorder_node": RecorderConfig,
     "heat_node": HeatConfig,
+    "burger_node": BurgerConfig,
+    "navigator_node": NavigatorNodeConfig,
 }
-FILES = {"heat_node": "heat.yaml"}  # of the others all are in one
+FILES = {  # of the others all are in one
+    "heat_node": "heat.yaml",
+    "burger_node": "burger.yaml",
+    "navigator_node": "navigator.yaml",
+}
 MESSAGE_PACKAGES = {
     "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav2_msgs",
     "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs",
