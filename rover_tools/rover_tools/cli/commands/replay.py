@@ -59,7 +59,7 @@ def command(
       ./rover replay results/seed-3
     """
     from rover_recorder.reader import find_recording
-    from rover_simulator.recordings.recording import read_recording
+    from rover_tools.evaluation.recordings import load_log
     from rover_tools.evaluation.results import Truth, summary
     from rover_tools.runner.recorded_run import recorded_run
     from rover_tools.runner.recording import load_recording
@@ -73,7 +73,7 @@ def command(
         folder = result_folder("replay", out)
         result = replay_recording(recording, folder, params, known, in_flight)
     else:
-        log = read_recording(path, yaw_convention)
+        log = load_log(path, yaw_convention)
         folder = result_folder("replay", out)
         with running_graph(folder, OVERRIDES, params) as run:
             result = replay(log, run, known, in_flight, str(path))
