@@ -6,10 +6,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from rover_common.config import ParameterInfo
 from rover_common.errors import RoverError
+from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_heat.config import HeatConfig
 
 SECTION, PARAMETERS = "/**/heat_node", "ros__parameters"
@@ -22,9 +21,11 @@ class PresetError(RoverError, ValueError):
 def load_preset(path: Path) -> HeatConfig:
     """The parameters of a file, the defaults for all that it does not name; raises PresetError."""
     try:
-        values = yaml.safe_load(path.read_text())[SECTION][PARAMETERS]
-    except (OSError, KeyError, TypeError, yaml.YAMLError) as error:
-        raise PresetError(f"{path}: {error}") from error
+        values = dict(read_yaml(path)[SECTION][PARAMETERS])
+    except YamlFileError as error:
+        raise PresetError(str(error)) from error
+    except (KeyError, TypeError, ValueError) as error:
+        raise PresetError(f"{path}: no section '{SECTION}' with '{PARAMETERS}'") from error
     known = {field.name: field for field in fields(HeatConfig)}
     for name, value in values.items():
         if name not in known:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from rover_common.map_encoding import navigable_cells
 from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.map_files import draw_map, save_map_server_pair
 from rover_tools.evaluation.scoring import score_map, score_places
+from rover_tools.output import write_result
 
 Result = dict[str, Any]
 
@@ -92,7 +92,7 @@ def write_results(
     title: str,
 ) -> None:
     """Write result.json, map.png and the map_server pair worldmap.pgm + worldmap.yaml."""
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
+    write_result(folder, result)
     if grid is None:
         return
     save_map_server_pair(grid, folder / "worldmap")
