@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
-from rover_common.config import ParameterInfo
+from rover_common.config import problem_of
 from rover_common.errors import RoverError
 from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_heat.config import HeatConfig
@@ -30,19 +29,7 @@ def load_preset(path: Path) -> HeatConfig:
     for name, value in values.items():
         if name not in known:
             raise PresetError(f"{path}: there is no parameter '{name}'")
-        problem = _problem(value, known[name].default, known[name].metadata["parameter"])
+        problem = problem_of(value, known[name].default, known[name].metadata["parameter"])
         if problem:
             raise PresetError(f"{path}: {name}: {problem}")
     return HeatConfig(**values)
-
-
-def _problem(value: Any, default: Any, info: ParameterInfo) -> str:
-    """Why a value cannot be; empty when it can."""
-    if type(value) is not type(default):
-        return f"{value!r} is no {type(default).__name__}"
-    if info.choices and value not in info.choices:
-        return f"'{value}' is not one of {', '.join(info.choices)}"
-    if info.minimum is not None and info.maximum is not None:
-        inside = info.minimum <= value <= info.maximum
-        return "" if inside else f"{value} is not within {info.minimum} to {info.maximum}"
-    return ""

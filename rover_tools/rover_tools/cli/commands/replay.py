@@ -59,6 +59,7 @@ def command(
       ./rover replay results/seed-3
     """
     from rover_recorder.reader import find_recording
+    from rover_tools.evaluation.parameters import read_parameters
     from rover_tools.evaluation.recordings import load_log
     from rover_tools.evaluation.results import Truth, summary
     from rover_tools.runner.recorded_run import recorded_run
@@ -68,6 +69,8 @@ def command(
     from rover_tools.runner.run import running_graph
 
     known = Truth.load(truth, samples)
+    if params is not None:
+        read_parameters(params)  # for its errors: the nodes read it themselves
     if find_recording(path) is not None:
         recording = recorded_run(load_recording(path))
         folder = result_folder("replay", out)
