@@ -138,7 +138,7 @@ def test_a_clock_that_does_not_run():
 @pytest.mark.parametrize(
     ("offered", "asked", "policy"),
     [
-        ({"reliable": False}, {"reliable": True}, "reliable reliability"),
+        ({"reliable": False}, {"reliable": True}, "reliable delivery"),
         ({"latched": False}, {"latched": True}, "transient local durability"),
         ({"reliable": True, "latched": True}, {"reliable": False}, None),
         ({"topic": "other", "reliable": False}, {"reliable": True}, None),

@@ -40,15 +40,15 @@ def check_clock(
 def check_qos(publishers: Sequence[Endpoint], subscriptions: Sequence[Endpoint]) -> Finding:
     name = "QoS"
     for publisher, subscription in _pairs(publishers, subscriptions):
-        for offered, asked, policy, kind in (
-            (publisher.reliable, subscription.reliable, "reliability", "reliable"),
-            (publisher.latched, subscription.latched, "durability", "transient local"),
+        for offered, asked, what in (
+            (publisher.reliable, subscription.reliable, "reliable delivery"),
+            (publisher.latched, subscription.latched, "transient local durability"),
         ):
             if asked and not offered:
                 return wrong(
                     name,
                     f"{subscription.node} hears nothing of {publisher.node} on {publisher.topic}: "
-                    f"it asks for {kind} {policy}, which is not offered; publish with it, or "
+                    f"it asks for {what}, which is not offered; publish with it, or "
                     "subscribe with less (rover_common/README.md lists the profiles)",
                 )
     return Finding(name)
