@@ -35,3 +35,15 @@ def parameter(
     """A dataclass field that is also a ROS parameter."""
     info = ParameterInfo(description, minimum, maximum, choices, settable)
     return field(default=default, metadata={"parameter": info})
+
+
+def problem_of(value: Any, default: Any, info: ParameterInfo) -> str:
+    """Why a parameter cannot have a value; empty when it can."""
+    if type(value) is not type(default):
+        return f"{value!r} is no {type(default).__name__}"
+    if info.choices and value not in info.choices:
+        return f"'{value}' is not one of {', '.join(info.choices)}"
+    if info.minimum is not None and info.maximum is not None:
+        inside = info.minimum <= value <= info.maximum
+        return "" if inside else f"{value} is not within {info.minimum} to {info.maximum}"
+    return ""

@@ -44,7 +44,7 @@ from rover_common.ros import qos
 from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
-from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for
+from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for, start_errors
 from rover_dashboard.config import DashboardConfig
 from rover_dashboard.conversions import TF
 from rover_dashboard.feed import Feed
@@ -220,8 +220,9 @@ def main() -> None:
     """Entry point of `ros2 run rover_dashboard dashboard_node`."""
     give_way()
     use_profiles()
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-    node = DashboardNode()
+    with start_errors():
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        node = DashboardNode()
     try:
         with suppress(KeyboardInterrupt), spinning(node) as executor:
             asyncio.run(_serve_until_signal(node, executor))

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
-import yaml
-
-from rover_common.config import ParameterInfo
+from rover_common.config import problem_of
 from rover_common.errors import RoverError
+from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_heat.config import HeatConfig
 
 SECTION, PARAMETERS = "/**/heat_node", "ros__parameters"
@@ -22,26 +20,16 @@ class PresetError(RoverError, ValueError):
 def load_preset(path: Path) -> HeatConfig:
     """The parameters of a file, the defaults for all that it does not name; raises PresetError."""
     try:
-        values = yaml.safe_load(path.read_text())[SECTION][PARAMETERS]
-    except (OSError, KeyError, TypeError, yaml.YAMLError) as error:
-        raise PresetError(f"{path}: {error}") from error
+        values = dict(read_yaml(path)[SECTION][PARAMETERS])
+    except YamlFileError as error:
+        raise PresetError(str(error)) from error
+    except (KeyError, TypeError, ValueError) as error:
+        raise PresetError(f"{path}: no section '{SECTION}' with '{PARAMETERS}'") from error
     known = {field.name: field for field in fields(HeatConfig)}
     for name, value in values.items():
         if name not in known:
             raise PresetError(f"{path}: there is no parameter '{name}'")
-        problem = _problem(value, known[name].default, known[name].metadata["parameter"])
+        problem = problem_of(value, known[name].default, known[name].metadata["parameter"])
         if problem:
             raise PresetError(f"{path}: {name}: {problem}")
     return HeatConfig(**values)
-
-
-def _problem(value: Any, default: Any, info: ParameterInfo) -> str:
-    """Why a value cannot be; empty when it can."""
-    if type(value) is not type(default):
-        return f"{value!r} is no {type(default).__name__}"
-    if info.choices and value not in info.choices:
-        return f"'{value}' is not one of {', '.join(info.choices)}"
-    if info.minimum is not None and info.maximum is not None:
-        inside = info.minimum <= value <= info.maximum
-        return "" if inside else f"{value} is not within {info.minimum} to {info.maximum}"
-    return ""

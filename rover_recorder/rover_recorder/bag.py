@@ -12,6 +12,7 @@ from pathlib import Path
 import yaml
 from mcap.records import Channel, Schema
 
+from rover_common.whole_file import write_whole
 from rover_recorder.types import Topic
 
 METADATA = "metadata.yaml"
@@ -76,9 +77,7 @@ def write_metadata(
     # yaml writes aliases for what occurs twice, which not every reader of metadata knows.
     dumper = type("Plain", (yaml.SafeDumper,), {"ignore_aliases": lambda *_: True})
     text = yaml.dump({"rosbag2_bagfile_information": information}, Dumper=dumper, sort_keys=False)
-    new = path.parent / f".{METADATA}.new"
-    new.write_text(text)
-    new.replace(path.parent / METADATA)
+    write_whole(path.parent / METADATA, text)
 
 
 def _topic_metadata(topic: Topic) -> dict[str, object]:

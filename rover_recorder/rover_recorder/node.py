@@ -32,7 +32,7 @@ from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
-from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for
+from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for, start_errors
 from rover_recorder import bag
 from rover_recorder.config import RecorderConfig
 from rover_recorder.conversions import (
@@ -192,7 +192,8 @@ def record(args: list[str] | None = None) -> None:
     give_way()
     use_profiles()
     # rclpy's own handlers would end the subscriptions before what was published has arrived.
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    with start_errors():
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     node = None
     try:
         node = RecorderNode()

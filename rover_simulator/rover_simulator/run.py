@@ -15,15 +15,16 @@ from rover_simulator.world.world import World
 
 
 class Stop:
-    """Set by SIGINT and SIGTERM."""
+    """Set by SIGINT and SIGTERM; a second one ends the process, whatever it does."""
 
     def __init__(self) -> None:
         self.asked = False
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self._ask)
 
-    def _ask(self, *_: object) -> None:
+    def _ask(self, number: int, _: object) -> None:
         self.asked = True
+        signal.signal(number, signal.SIG_DFL)
 
     def __call__(self) -> bool:
         return self.asked

@@ -9,6 +9,8 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from rover_common.whole_file import write_whole
+
 
 def result_folder(kind: str, chosen: Path | None) -> Path:
     """The folder for a run's results: the chosen one, or a new one below ./results."""
@@ -31,4 +33,4 @@ def print_result(result: Any, as_json: bool, text: str) -> None:
 
 def write_result(folder: Path, result: Any) -> None:
     """Write result.json into the result folder."""
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
+    write_whole(folder / "result.json", json.dumps(result, indent=2) + "\n")

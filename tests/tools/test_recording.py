@@ -7,7 +7,8 @@ import cv2
 import numpy as np
 import pytest
 
-from rover_simulator.recordings.recording import NOMINAL_PERIOD, RecordingError, read_recording
+from rover_simulator.recordings.clock import NOMINAL_PERIOD
+from rover_simulator.recordings.recording import RecordingError, read_recording
 
 HEADER = "Path;SteerAngle;Throttle;Brake;Speed;X_Position;Y_Position;Pitch;Yaw;Roll"
 NAMES = ("robocam_2017_05_02_11_16_21_421.jpg", "robocam_2017_05_02_11_16_21_455.jpg")
@@ -29,7 +30,7 @@ def row(path: str, values: tuple[str, ...] = VALUES, separator: str = ";") -> st
 def test_a_row_is_read_in_si_and_ros_conventions(tmp_path):
     recording = read_recording(write(tmp_path, [HEADER, row(f"IMG/{NAMES[0]}")]))
     (frame,) = recording.frames
-    assert recording.skipped == 0
+    assert recording.skips == ()
     assert frame.image_path.name == NAMES[0]
     assert frame.steering_angle == pytest.approx(math.radians(7.5))
     assert (frame.throttle, frame.brake, frame.speed) == (1.0, 0.0, 2.5)
@@ -91,7 +92,7 @@ def test_variants_of_the_log_are_read(tmp_path, header, line):
 def test_a_corrupt_row_is_skipped_and_counted(tmp_path, bad):
     recording = read_recording(write(tmp_path, [HEADER, row(NAMES[0]), bad, row(NAMES[1])]))
     assert len(recording.frames) == 2
-    assert recording.skipped == 1
+    assert len(recording.skips) == 1
 
 
 def test_yaw_clockwise_from_north(tmp_path):
@@ -114,5 +115,5 @@ def test_no_usable_row_is_one_clear_error(tmp_path):
 def test_the_real_recordings_are_read_whole(recordings):
     for name in ("udacity/test_dataset", "recordings/long", "recordings/medium", "recordings/arm"):
         recording = read_recording(recordings / name)
-        assert recording.skipped == 0
+        assert recording.skips == ()
         assert len(recording.frames) == len(list((recordings / name / "IMG").glob("*.jpg")))

@@ -9,7 +9,8 @@ from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 from rover_tools.cli.main import main, rover
 from rover_tools.cli.mission_options import MissionOptions
-from rover_tools.evaluation.strategy import ParametersError, Strategy, StrategyError, choices
+from rover_tools.evaluation.parameters import ParametersError
+from rover_tools.evaluation.strategy import Strategy, StrategyError, choices
 from rover_tools.scoreboard import run
 
 SHIPPED = Path(__file__).resolve().parents[2] / "rover_bringup" / "config" / "rover.yaml"

@@ -101,7 +101,7 @@ def test_every_command_has_an_example():
 
 def test_the_example_is_a_recording_with_a_map_and_a_sample():
     recording = read_recording(EXAMPLES / "recording")
-    assert (len(recording.frames), recording.skipped) == (200, 0)
+    assert (len(recording.frames), recording.skips) == (200, ())
     truth = Truth.load(EXAMPLES / "map.png", EXAMPLES / "samples.csv")
     assert truth.navigable is not None
     assert truth.samples is not None

@@ -38,7 +38,10 @@ class Machine:
         self.bin = folder / "bin"
         self.bin.mkdir(parents=True)
         shutil.copytree(ROOT / "wheels", self.root / "wheels")
-        shutil.copytree(ROOT / "rover_tools" / "help", self.root / "rover_tools" / "help")
+        tools, ours = ROOT / "rover_tools", self.root / "rover_tools"
+        shutil.copytree(tools / "help", ours / "help")
+        shutil.copytree(tools / "rover_tools" / "doctor", ours / "rover_tools" / "doctor")
+        shutil.copy(tools / "rover_tools" / "__init__.py", ours / "rover_tools")
         shutil.copy(ROOT / "rover", self.root / "rover")
         for tool in (*TOOLS, *BUILD_TOOLS):
             found = shutil.which(tool)
@@ -190,6 +193,27 @@ def test_the_wheels_of_another_checkout_are_no_installation(machine):
     wheels = machine.rover("doctor", _ROS_WHEELS_BOOTSTRAP_COMPLETE="1", **sourced)
     assert "ROS 2 Jazzy from wheels, in .venv" in wheels.stdout
     assert "ROS 2 Jazzy, sourced" in machine.rover("doctor", **sourced).stdout
+
+
+@pytest.mark.parametrize(
+    ("variables", "line"),
+    [
+        ({"ROS_DOMAIN_ID": "abc"}, "wrong    domain: ROS_DOMAIN_ID=abc is no domain"),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}, "wrong    discovery: "),
+        ({"ROS_DISTRO": "humble"}, "note     other ROS: ROS humble is sourced"),
+        ({"PYTHONPATH": "/elsewhere"}, "note     PYTHONPATH: it holds /elsewhere"),
+    ],
+)
+def test_doctor_names_variables_as_they_were_given(machine, variables, line):
+    done = machine.rover("doctor", **variables)
+    assert line in done.stdout
+    assert done.returncode == line.startswith("wrong")
+
+
+def test_doctor_tells_a_build_that_is_older_than_its_sources(machine):
+    (machine.root / "install").mkdir()
+    (machine.root / "install" / ".stamp").write_text("older")
+    assert "to do    build: it is older than its sources" in machine.rover("doctor").stdout
 
 
 @pytest.mark.parametrize(

@@ -52,6 +52,7 @@ MESSAGE_PACKAGES = {
 ROSDEP_KEYS = {
     "numpy": "python3-numpy",
     "cv2": "python3-opencv",
+    "PIL": "python3-pil",
     "scipy": "python3-scipy",
     "skimage": "python3-skimage",
     "matplotlib": "python3-matplotlib",

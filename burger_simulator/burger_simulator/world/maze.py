@@ -6,17 +6,24 @@ All positions are in the world frame: x east, y north, the field's south-west co
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import yaml
 
 from rover_common.errors import RoverError
 from rover_common.geometry import Pose
+from rover_common.whole_file import write_whole
+from rover_common.yaml_file import YamlFileError, read_yaml
 
 WALL_THICKNESS = 0.005  # [m] acrylic, by the challenge's drawing
 WALL_HEIGHT = 0.47  # [m]
+# Of a file; those of the challenge are below a tenth of it.
+LARGEST, MOST_WALLS, MOST_SOURCES = 50.0, 1000, 100  # [m], and numbers
+LONGEST_NAME = 100
+
+T = TypeVar("T")
 
 
 class MazeError(RoverError, ValueError):
@@ -116,32 +123,62 @@ class Maze:
     def save(self, path: Path) -> None:
         """Write it as YAML."""
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(yaml.safe_dump(_plain(asdict(self)), sort_keys=False))
+        write_whole(path, yaml.safe_dump(_plain(asdict(self)), sort_keys=False))
 
     @classmethod
     def load(cls, path: Path) -> Maze:
         """The same maze again; raises MazeError."""
         try:
-            return _maze_of(yaml.safe_load(path.read_text()))
-        except (OSError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+            maze = _maze_of(read_yaml(path, generated=True))
+        except YamlFileError as error:
+            raise MazeError(str(error)) from error
+        except KeyError as error:
+            raise MazeError(f"{path}: {error} is missing") from error
+        except (AttributeError, TypeError, ValueError) as error:
             raise MazeError(f"{path}: {error}") from error
+        problem = _problem(maze)
+        if problem:
+            raise MazeError(f"{path}: {problem}")
+        return maze
+
+
+def _problem(maze: Maze) -> str:
+    """Why nothing can drive in such a maze; empty when something can."""
+    if not (0.0 < maze.width <= LARGEST and 0.0 < maze.height <= LARGEST):
+        return f"a field of {maze.width:g} x {maze.height:g} m, at most {LARGEST:g} m"
+    if not (0.0 <= maze.start.x <= maze.width and 0.0 <= maze.start.y <= maze.height):
+        return f"a start off the field, x = {maze.start.x:g}, y = {maze.start.y:g}"
+    for found, most, name in (
+        (len(maze.walls), MOST_WALLS, "walls"), (len(maze.sources), MOST_SOURCES, "heat sources"),
+    ):  # fmt: skip
+        if found > most:
+            return f"{found} {name}, at most {most}"
+    return ""
 
 
 def _maze_of(data: dict[str, Any]) -> Maze:
-    errors = data["errors"] | {
-        name: tuple(map(float, data["errors"][name])) for name in ("thermal_offsets", "gyro_bias")
-    }
     return Maze(
-        name=str(data["name"]),
+        name=str(data["name"])[:LONGEST_NAME],
         width=float(data["width"]),
         height=float(data["height"]),
         walls=tuple(Wall(*map(float, ends)) for ends in data["walls"]),
-        sources=tuple(HeatSource(**source) for source in data["sources"]),
-        ramp=None if data["ramp"] is None else Ramp(**data["ramp"]),
-        start=Pose(**data["start"]),
+        sources=tuple(_filled(HeatSource, source) for source in data["sources"]),
+        ramp=None if data["ramp"] is None else _filled(Ramp, data["ramp"]),
+        start=_filled(Pose, data["start"]),
         air=float(data["air"]),
-        errors=SensorErrors(**errors),
+        errors=_filled(SensorErrors, data["errors"]),
     )
+
+
+def _filled(kind: type[T], data: dict[str, Any]) -> T:
+    """A dataclass all of whose fields are there: a file that is cut lacks the last ones."""
+    values = {}
+    for each in fields(kind):  # type: ignore[arg-type]
+        value = data[each.name]
+        values[each.name] = tuple(map(float, value)) if isinstance(value, list) else value
+        if each.type == "float":
+            values[each.name] = float(value)
+    return kind(**values)
 
 
 def _plain(data: dict[str, Any]) -> dict[str, Any]:

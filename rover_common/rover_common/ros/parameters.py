@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
@@ -54,6 +55,21 @@ def declare_parameters(
     if on_change is not None:
         _follow(node, config, infos, on_change)
     return config
+
+
+def unknown_parameters(node: Node) -> list[str]:
+    """Names that a file or the command line sets, and that the node has not declared.
+
+    ROS ignores them. Each is followed by the nearest name that there is.
+    """
+    given = node._parameter_overrides  # not among rclpy's public names
+    known = [name for name in node._parameters if name not in given]
+    told = []
+    for name in sorted(given):
+        if not node.has_parameter(name) and not name.startswith("qos_overrides."):
+            near = difflib.get_close_matches(name, known, 1)
+            told.append(f"'{name}'; did you mean '{near[0]}'?" if near else f"'{name}'")
+    return told
 
 
 def _follow(

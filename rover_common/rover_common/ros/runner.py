@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 import rclpy
-from rclpy._rclpy_pybind11 import RCLError
+from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
+from rclpy.exceptions import ParameterException
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 
+from rover_common.errors import RoverError
 from rover_common.ros.fast_dds import use_profiles
+from rover_common.ros.parameters import unknown_parameters
+from rover_common.ros.shared_memory import remove_stale_memory
 
 try:  # handles messages faster, but knows no guard conditions; not in every release of Jazzy
     from rclpy.experimental import EventsExecutor
@@ -27,6 +34,19 @@ def spin_for(executor: Executor, seconds: float) -> None:
     executor.spin_until_future_complete(Future(), timeout_sec=seconds)
 
 
+@contextmanager
+def start_errors() -> Iterator[None]:
+    """Parameters, files and arguments that cannot be used end the process with one line."""
+    try:
+        yield
+    except (RoverError, ParameterException, OSError) as error:
+        sys.exit(f"{Path(sys.argv[0]).name}: {' '.join(str(error).split())}")
+    except (RCLError, UnknownROSArgsError) as error:
+        if rclpy.ok():  # otherwise a signal came while the node was made
+            raise
+        sys.exit(f"{Path(sys.argv[0]).name}: {' '.join(str(error).split())}")
+
+
 def run_node(
     factory: Callable[[], Node],
     args: list[str] | None = None,
@@ -37,10 +57,15 @@ def run_node(
     # raised at an arbitrary line.
     signal.signal(signal.SIGINT, lambda *_: None)
     use_profiles()
-    rclpy.init(args=args)
+    remove_stale_memory()
+    with start_errors():
+        rclpy.init(args=args)
     node = None
     try:
-        node = factory()
+        with start_errors():
+            node = factory()
+        for name in unknown_parameters(node):
+            node.get_logger().warning(f"ignored: there is no parameter {name}")
         executor = executor_class()
         executor.add_node(node)
         while rclpy.ok():

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import csv
 import math
-import re
+from collections.abc import Iterator
 from dataclasses import dataclass
-from datetime import datetime
-from pathlib import Path, PureWindowsPath
+from pathlib import Path
 from typing import Literal
 
+from rover_common.csv_table import CellError, Row, TableError, read_table
 from rover_common.errors import RoverError
 from rover_common.geometry import Pose, wrap_angle
+from rover_simulator.recordings.clock import FrameClock
+from rover_simulator.recordings.motion import contradicts_yaw, reachable
+from rover_simulator.recordings.pictures import FOLDER, find_picture
+from rover_simulator.recordings.skips import Cause, Skip, UnusableError, by_cause, skips_in_words
 
 LOG_NAME = "robot_log.csv"
 COLUMNS = (
@@ -19,11 +22,11 @@ COLUMNS = (
     "x_position", "y_position", "pitch", "yaw", "roll",
 )  # fmt: skip
 
-# robocam_2017_05_02_11_16_21_421.jpg: date, time, milliseconds
-STAMPED_NAME = re.compile(r"\d{4}(_\d\d){5}_\d{3}")
-NOMINAL_PERIOD = 0.04  # [s] between frames whose names carry no time
-
 YawConvention = Literal["ccw-from-east", "cw-from-north"]
+OTHER_CONVENTION: dict[YawConvention, YawConvention] = {
+    "ccw-from-east": "cw-from-north",
+    "cw-from-north": "ccw-from-east",
+}
 
 
 class RecordingError(RoverError, ValueError):
@@ -39,69 +42,78 @@ class RecordedFrame:
     throttle: float
     brake: float
     steering_angle: float  # [rad] left positive
+    line: int = 0  # of the log, from 1
 
 
 @dataclass(frozen=True)
 class Recording:
     frames: tuple[RecordedFrame, ...]
-    skipped: int  # rows that could not be used
+    skips: tuple[Skip, ...] = ()  # rows that cannot be used, in their order
+    yaw_convention: YawConvention = "ccw-from-east"
+
+    def remarks(self) -> list[str]:
+        """What its user should know: what was skipped and why, and whether its yaw can be right."""
+        lines = skips_in_words(self.skips, len(self.frames) + len(self.skips))
+        poses, speeds = zip(*((frame.pose, frame.speed) for frame in self.frames), strict=True)
+        contradicted, other_fits = contradicts_yaw(poses, speeds)
+        if contradicted:
+            other = OTHER_CONVENTION[self.yaw_convention]
+            advice = "it fits --yaw-convention" if other_fits else "nor does it fit"
+            lines.append(
+                f"the motion contradicts the yaw as {self.yaw_convention}; {advice} {other}"
+            )
+        return lines
 
 
 def read_recording(folder: Path, yaw_convention: YawConvention = "ccw-from-east") -> Recording:
-    """Read a run; rows with missing, non-finite or non-numeric values or no image are skipped.
+    """Read a run; rows that cannot be used are skipped, and their causes kept.
 
-    The separator is `;` or `,`. Only the file name of a row's path counts: recordings carry the
-    paths of the machine that made them, Windows ones among them. Raises RecordingError when there
-    is no log, or no usable row in it.
+    A row needs finite numbers, a picture that the bridge takes, and a position that the rover can
+    have reached. Of a row with more cells than its header, the last nine are the numbers. Raises
+    RecordingError when there is no log, or no usable row in it.
     """
     log = folder / LOG_NAME
     try:
-        lines = log.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+        rows = read_table(log, COLUMNS, text_column="path", needs_header=False)
     except OSError as error:
         raise RecordingError(f"{log}: {error.strerror or error}") from error
-    rows = _rows([line.replace("\0", "") for line in lines if line.strip()])
-    clock = _Clock()
-    frames = []
-    for row in rows:
-        frame = _frame(row, folder, yaw_convention, clock)
-        if frame is not None:
-            frames.append(frame)
+    except TableError as error:
+        raise RecordingError(str(error)) from error
+    skips: list[Skip] = []
+    frames = list(_frames(rows, folder, yaw_convention, skips))
     if not frames:
-        raise RecordingError(f"{log}: no usable row among {len(rows)}")
-    return Recording(tuple(frames), len(rows) - len(frames))
+        raise RecordingError(_no_frame(log, rows, skips))
+    usable = reachable([frame.pose for frame in frames], [frame.time for frame in frames])
+    for frame, is_usable in zip(frames, usable, strict=True):
+        if not is_usable:
+            place = f"x = {frame.pose.x:g}, y = {frame.pose.y:g}"
+            skips.append(Skip(frame.line, Cause.JUMP, place))
+    kept = tuple(frame for frame, is_usable in zip(frames, usable, strict=True) if is_usable)
+    return Recording(kept, tuple(sorted(skips, key=lambda skip: skip.line)), yaw_convention)
 
 
-def _rows(lines: list[str]) -> list[dict[str, str]]:
-    """The data rows by lower-case column name; a log without a header has the usual order."""
-    if not lines:
-        return []
-    separator = ";" if lines[0].count(";") >= lines[0].count(",") else ","
-    table = list(csv.reader(lines, delimiter=separator))
-    names = [name.strip().lower() for name in table[0]]
-    if set(COLUMNS) <= set(names):
-        table = table[1:]
-    else:
-        names = list(COLUMNS)
-    decimal = str.maketrans(",", ".") if separator == ";" else {}
-    return [
-        {name: cell.strip() if name == "path" else cell.strip().translate(decimal)
-         for name, cell in zip(names, row, strict=False)}
-        for row in table
-    ]  # fmt: skip
+def _frames(
+    rows: list[Row], folder: Path, yaw_convention: YawConvention, skips: list[Skip]
+) -> Iterator[RecordedFrame]:
+    clock = FrameClock()
+    for row in rows:
+        try:
+            yield _frame(row, folder, yaw_convention, clock)
+        except UnusableError as error:
+            skips.append(Skip(row.line, error.cause, error.detail))
 
 
 def _frame(
-    row: dict[str, str], folder: Path, yaw_convention: YawConvention, clock: _Clock
-) -> RecordedFrame | None:
+    row: Row, folder: Path, yaw_convention: YawConvention, clock: FrameClock
+) -> RecordedFrame:
     try:
         steer_deg, throttle, brake, speed, x, y, pitch_deg, yaw_deg, roll_deg = (
-            _finite(row[name]) for name in COLUMNS[1:]
+            row.number(name) for name in COLUMNS[1:]
         )
-    except (KeyError, ValueError):
-        return None
-    image_path = _find_image(row["path"], folder)
-    if image_path is None:
-        return None
+        path = row.text("path")
+    except CellError as error:
+        raise UnusableError(Cause.CELLS, str(error).partition(": ")[2]) from error
+    image_path = find_picture(path, folder)
     if yaw_convention == "cw-from-north":
         yaw_deg = 90.0 - yaw_deg
     pose = Pose(
@@ -112,41 +124,22 @@ def _frame(
         roll=-wrap_angle(math.radians(roll_deg)),  # the simulator's is positive right side up
     )
     time = clock.read(image_path.name)
-    return RecordedFrame(image_path, time, pose, speed, throttle, brake, math.radians(steer_deg))
+    return RecordedFrame(
+        image_path, time, pose, speed, throttle, brake, math.radians(steer_deg), row.line
+    )
 
 
-def _finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(text)
-    return value
-
-
-def _find_image(path: str, folder: Path) -> Path | None:
-    name = PureWindowsPath(path).name  # splits at both kinds of slash
-    if not name:
-        return None
-    candidates = (folder / "IMG" / name, folder / name)
-    return next((candidate for candidate in candidates if candidate.is_file()), None)
-
-
-class _Clock:
-    """Times of the frames [s] from their names, or at the nominal period without them."""
-
-    def __init__(self) -> None:
-        self._start: datetime | None = None
-        self._last = -NOMINAL_PERIOD
-
-    def read(self, name: str) -> float:
-        time = self._last + NOMINAL_PERIOD
-        match = STAMPED_NAME.search(name)
-        if match:
-            try:
-                moment = datetime.strptime(match[0], "%Y_%m_%d_%H_%M_%S_%f")
-            except ValueError:
-                moment = None
-            if moment is not None:
-                self._start = self._start or moment
-                time = (moment - self._start).total_seconds()
-        self._last = max(self._last, time, 0.0)
-        return self._last
+def _no_frame(log: Path, rows: list[Row], skips: list[Skip]) -> str:
+    """Why there is none, with the remedy for the commonest cause."""
+    if not rows:
+        return f"{log}: no row below its header"
+    causes = by_cause(skips)
+    cause, some = next(iter(causes.items()))
+    if cause is Cause.NO_PICTURE and len(some) == len(rows):
+        places = f"{log.parent / FOLDER} or {log.parent}"
+        return f"none of the {len(rows)} pictures was found in {places}; {cause.remedy}"
+    found = "; ".join(
+        f"{each.text}: {len(skipped)} (line {skipped[0].line}: {skipped[0].detail})"
+        for each, skipped in causes.items()
+    )
+    return f"{log}: no usable row among {len(rows)}; {found}; {cause.remedy}"

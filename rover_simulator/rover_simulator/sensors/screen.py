@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.whole_file import write_whole
 from rover_simulator.sensors.jpeg import encode_jpeg
 
 Picture = NDArray[np.uint8]  # (height, width, 3) RGB
@@ -72,9 +73,9 @@ class SavedScreen:
         self._insets |= shown
         stem = f"{time:08.2f}"
         for name in shown:
-            (self._folder / f"{stem}_{name}.jpg").write_bytes(insets[name])
+            write_whole(self._folder / f"{stem}_{name}.jpg", insets[name])
         screen = encode_jpeg(screen_picture(image, self._insets))
-        (self._folder / f"{stem}_screen.jpg").write_bytes(screen)
+        write_whole(self._folder / f"{stem}_screen.jpg", screen)
 
 
 def _put(screen: Picture, picture: Picture, place: Place) -> None:

@@ -14,10 +14,15 @@ from numpy.typing import NDArray
 
 from rover_common.errors import RoverError
 from rover_common.geometry import Pose
+from rover_common.grid import WORLD
 from rover_common.ground_truth import load_truth
+from rover_common.whole_file import write_whole
+from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_simulator.world.boulders import Boulder, boulders_of
 
 MAP_NAME, WORLD_NAME = "map.png", "world.yaml"
+MOST_SAMPLES = 100  # the original has six; each costs a shape in the scene
+LONGEST_NAME = 100
 
 
 class WorldError(RoverError, ValueError):
@@ -39,26 +44,51 @@ class World:
     def save(self, folder: Path) -> None:
         """Write map.png and world.yaml into the folder."""
         folder.mkdir(parents=True, exist_ok=True)
-        cv2.imwrite(str(folder / MAP_NAME), self.navigable.astype(np.uint8) * 255)
-        description = {
+        picture = cv2.imencode(".png", self.navigable.astype(np.uint8) * 255)[1]
+        write_whole(folder / MAP_NAME, picture.tobytes())
+        description = {  # a file that is cut lacks its start
             "name": self.name,
-            "start": {"x": self.start.x, "y": self.start.y, "yaw": self.start.yaw},
             "samples": [[float(x), float(y)] for x, y in self.samples],
+            "start": {"x": self.start.x, "y": self.start.y, "yaw": self.start.yaw},
         }
-        (folder / WORLD_NAME).write_text(yaml.safe_dump(description, sort_keys=False))
+        write_whole(folder / WORLD_NAME, yaml.safe_dump(description, sort_keys=False))
 
     @classmethod
     def load(cls, folder: Path) -> World:
         """Raises TruthError for its map, WorldError for its description."""
         navigable = load_truth(folder / MAP_NAME)
+        file = folder / WORLD_NAME
         try:
-            description = yaml.safe_load((folder / WORLD_NAME).read_text())
+            description = read_yaml(file, generated=True)
             start = description["start"]
-            return cls(
-                str(description["name"]),
+            world = cls(
+                str(description["name"])[:LONGEST_NAME],
                 navigable,
-                np.array(description["samples"], float).reshape(-1, 2),
+                np.array([(x, y) for x, y in description["samples"]], float).reshape(-1, 2),
                 Pose(float(start["x"]), float(start["y"]), float(start["yaw"])),
             )
-        except (OSError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
-            raise WorldError(f"{folder / WORLD_NAME}: {error}") from error
+        except YamlFileError as error:
+            raise WorldError(str(error)) from error
+        except KeyError as error:
+            raise WorldError(f"{file}: {error} is missing") from error
+        except (TypeError, ValueError) as error:
+            raise WorldError(f"{file}: {error}") from error
+        problem = _problem(world)
+        if problem:
+            raise WorldError(f"{file}: {problem}")
+        return world
+
+
+def _problem(world: World) -> str:
+    """Why nothing can drive in such a world; empty when something can."""
+    start, samples = world.start, world.samples
+    if not (WORLD.contains(start.x, start.y) and world.navigable[int(start.y), int(start.x)]):
+        return f"no ground at the start, x = {start.x:g}, y = {start.y:g}"
+    if len(samples) > MOST_SAMPLES:
+        return f"{len(samples)} samples, at most {MOST_SAMPLES}"
+    for x, y in samples:
+        if not WORLD.contains(x, y):
+            return f"a sample off the map, x = {x:g}, y = {y:g}"
+    if len(np.unique(samples, axis=0)) < len(samples):
+        return "two samples at one place"
+    return ""

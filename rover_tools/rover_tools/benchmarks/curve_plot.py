@@ -7,6 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from rover_common.whole_file import whole_file
 from rover_tools.evaluation.scoring import MapScore
 
 STYLES = {"ours": ("#2b6cb0", "-"), "baseline": ("#d7443e", "--")}
@@ -34,4 +35,5 @@ def draw_curves(path: Path, curves: list[Curve]) -> None:
         panel.grid(alpha=0.3)
     panels[0].set_ylabel("fidelity [%]")
     panels[0].legend(loc="lower left")
-    figure.savefig(path, dpi=110)
+    with whole_file(path) as draft:
+        figure.savefig(draft, dpi=110, format="png")

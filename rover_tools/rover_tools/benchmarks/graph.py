@@ -58,4 +58,4 @@ def _repeated(recording: Recording, count: int) -> Recording:
         for lap in itertools.count()
         for frame in recording.frames
     )
-    return Recording(tuple(itertools.islice(frames, count)), 0)
+    return Recording(tuple(itertools.islice(frames, count)))

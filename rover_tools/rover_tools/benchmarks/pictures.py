@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose, rotation_matrix
 from rover_common.grid import WORLD
+from rover_common.whole_file import write_whole
 from rover_simulator.recordings.recording import RecordedFrame, read_recording
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.world.terrain import COUNT, Terrain
@@ -169,7 +170,9 @@ def draw_pairs(path: Path, pairs: list[tuple[Image, Image]]) -> None:
     rows = [np.hstack([recorded, gap, rendered]) for recorded, rendered in pairs]
     sheet = np.vstack(rows) & 0xFC  # the last bits are noise, and most of the file
     path.parent.mkdir(parents=True, exist_ok=True)
-    cv2.imwrite(str(path), cv2.cvtColor(sheet, cv2.COLOR_RGB2BGR), [cv2.IMWRITE_PNG_COMPRESSION, 9])
+    options = [cv2.IMWRITE_PNG_COMPRESSION, 9]
+    _, picture = cv2.imencode(".png", cv2.cvtColor(sheet, cv2.COLOR_RGB2BGR), options)
+    write_whole(path, picture.tobytes())
 
 
 def _shot(frame: RecordedFrame) -> Shot:

@@ -33,7 +33,7 @@ TABLE = {
     "run": Entry(f"{COMMANDS}.run", "an executable of a package, as `ros2 run` does"),
     "shell": Entry(f"{COMMANDS}.shell", "a shell in which the workspace is sourced"),
     "build": Entry(f"{COMMANDS}.build", "set up and build, nothing more"),
-    "doctor": Entry(f"{COMMANDS}.doctor", "what is missing on this machine"),
+    "doctor": Entry(f"{COMMANDS}.doctor", "what is missing or wrong on this machine"),
     "completion": Entry(f"{COMMANDS}.completion", "the completion script of bash, zsh or fish"),
 }
 

@@ -47,7 +47,8 @@ class MissionOptions:
         from rover_tools.evaluation.strategy import Strategy
         from rover_tools.runner.graph import default_parameters
 
-        chosen = self.strategy or Strategy.of_parameters(self.params or default_parameters())
+        of_file = Strategy.of_parameters(self.params or default_parameters())
+        chosen = self.strategy or of_file
         return chosen.coming_home(self.way_home)
 
     def run(self, kind: str, world: WorldOptions) -> tuple[Result, Path]:
@@ -55,11 +56,11 @@ class MissionOptions:
         from rover_tools.evaluation.results import summary
         from rover_tools.runner.mission import run_mission
 
-        loaded = world.load()
+        loaded, strategy = world.load(), self.chosen_strategy()
         folder = result_folder(kind, self.out)
         result = run_mission(
             loaded, world.seed, self.time_limit, folder, parameters=self.params,
-            strategy=self.chosen_strategy(), fps=self.fps, page=not self.no_dashboard,
+            strategy=strategy, fps=self.fps, page=not self.no_dashboard,
             open_page=self.open_page, record=not self.no_record,
         )  # fmt: skip
         print_result(result, self.as_json, summary(result))

@@ -35,7 +35,7 @@ no_dashboard_option = click.option(
     "--no-dashboard", is_flag=True, help="Do not serve the live page."
 )
 truth_option = click.option(
-    "--truth", type=FILE, metavar="PNG", help="The true map, 200 x 200; non-zero is navigable."
+    "--truth", type=FILE, metavar="PNG", help="The true map: 200 x 200, two values."
 )
 samples_option = click.option(
     "--samples", type=FILE, metavar="CSV", help="True positions of the rocks in view: x,y [m]."

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from rover_common.map_encoding import EDGE, navigable_cells
 from rover_common.types import GridMap, RockTrack
+from rover_common.whole_file import whole_file, write_whole
 
 # map_server's pixel values in trinary mode
 FREE, UNKNOWN, OCCUPIED = 254, 205, 0
@@ -31,7 +32,7 @@ def save_map_server_pair(grid: GridMap, stem: Path) -> None:
     image[grid.cells > EDGE] = OCCUPIED
     image[navigable_cells(grid.cells)] = FREE
     # The file's first row is the north edge, the grid's is the south edge.
-    cv2.imwrite(str(stem.with_suffix(".pgm")), image[::-1])
+    write_whole(stem.with_suffix(".pgm"), cv2.imencode(".pgm", image[::-1])[1].tobytes())
     description = {
         "image": stem.with_suffix(".pgm").name,
         "mode": "trinary",
@@ -41,7 +42,7 @@ def save_map_server_pair(grid: GridMap, stem: Path) -> None:
         "occupied_thresh": 0.65,
         "free_thresh": 0.196,
     }
-    stem.with_suffix(".yaml").write_text(yaml.safe_dump(description, sort_keys=False))
+    write_whole(stem.with_suffix(".yaml"), yaml.safe_dump(description, sort_keys=False))
 
 
 def draw_map(
@@ -87,7 +88,15 @@ def draw_map(
             ax.plot(*np.transpose(xy), "D", color=YELLOW, mec="black", mew=0.5, markersize=5)
         _zoom(ax, classes, truth, extent)
     figure.suptitle(title)
-    figure.savefig(file, format="png")
+    _save(figure, file)
+
+
+def _save(figure: Figure, file: Path | BinaryIO) -> None:
+    if not isinstance(file, Path):
+        figure.savefig(file, format="png")
+        return
+    with whole_file(file) as draft:
+        figure.savefig(draft, format="png")
 
 
 def _show(ax: Axes, classes: NDArray, colors: list[str], labels: list[str], extent: tuple) -> None:

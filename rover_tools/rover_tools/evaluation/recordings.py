@@ -5,10 +5,19 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from rover_simulator.recordings.recording import Recording, read_recording
+from rover_simulator.recordings.recording import Recording, YawConvention, read_recording
+from rover_tools.output import note
 
 DATA_VARIABLE = "ROVER_DATA"
 DEFAULT_DATA = Path("..") / "shared" / "data"  # from the folder that the command runs in
+
+
+def load_log(folder: Path, yaw_convention: YawConvention = "ccw-from-east") -> Recording:
+    """Read a run of the simulator, and tell what its user should know. As `read_recording`."""
+    recording = read_recording(folder, yaw_convention)
+    for remark in recording.remarks():
+        note(remark)
+    return recording
 
 
 def data_folder() -> Path:
@@ -23,7 +32,7 @@ def example_recording(chosen: Path | None, scratch: Path) -> tuple[Recording, st
     embedded simulator into the scratch folder.
     """
     if chosen is not None:
-        return read_recording(chosen), str(chosen)
+        return load_log(chosen), str(chosen)
     recorded = data_folder() / "udacity" / "test_dataset"
     if recorded.is_dir():
         return read_recording(recorded), str(recorded)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,12 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.csv_table import CellError, TableError, read_table
 from rover_common.errors import RoverError
 from rover_common.ground_truth import load_truth
 from rover_common.map_encoding import navigable_cells
 from rover_common.types import GridMap, RockTrack
 from rover_tools.evaluation.map_files import draw_map, save_map_server_pair
 from rover_tools.evaluation.scoring import score_map, score_places
+from rover_tools.output import write_result
 
 Result = dict[str, Any]
 
@@ -42,15 +42,17 @@ class Truth:
 
 
 def load_samples(path: Path) -> NDArray[np.float64]:
-    """Sample positions (n, 2) [m] from a CSV with the columns x and y."""
+    """Sample positions (n, 2) [m] from a CSV with the columns x and y; raises SamplesError."""
     try:
-        with path.open(newline="") as file:
-            rows = [(float(row["x"]), float(row["y"])) for row in csv.DictReader(file)]
+        rows = read_table(path, ("x", "y"))
+        places = [(row.number("x"), row.number("y")) for row in rows]
     except OSError as error:
         raise SamplesError(f"{path}: {error.strerror}") from error
-    except (KeyError, TypeError, ValueError) as error:
-        raise SamplesError(f"{path}: expected columns x and y with numbers") from error
-    return np.array(rows, float).reshape(-1, 2)
+    except CellError as error:
+        raise SamplesError(f"{path}: {error}") from error
+    except TableError as error:
+        raise SamplesError(str(error)) from error
+    return np.array(places, float).reshape(-1, 2)
 
 
 def score(grid: GridMap | None, rocks: tuple[RockTrack, ...], truth: Truth) -> Result:
@@ -90,7 +92,7 @@ def write_results(
     title: str,
 ) -> None:
     """Write result.json, map.png and the map_server pair worldmap.pgm + worldmap.yaml."""
-    (folder / "result.json").write_text(json.dumps(result, indent=2) + "\n")
+    write_result(folder, result)
     if grid is None:
         return
     save_map_server_pair(grid, folder / "worldmap")

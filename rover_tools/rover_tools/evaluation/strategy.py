@@ -10,11 +10,10 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from rover_common.errors import RoverError
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
+from rover_tools.evaluation.parameters import read_parameters
 
 DEFAULTS = DecisionConfig()
 NO_TIME_LIMIT = 36000.0  # [s] the documents of the classics know none
@@ -22,10 +21,6 @@ NO_TIME_LIMIT = 36000.0  # [s] the documents of the classics know none
 
 class StrategyError(RoverError, ValueError):
     """A name that is no strategy's."""
-
-
-class ParametersError(RoverError, ValueError):
-    """A parameter file that cannot be read."""
 
 
 @dataclass(frozen=True)
@@ -72,15 +67,7 @@ class Strategy:
     @classmethod
     def of_parameters(cls, path: Path) -> Strategy:
         """The one that a parameter file sets; raises ParametersError."""
-        try:
-            sections = yaml.safe_load(path.read_text()) or {}
-            values: dict[str, Any] = {}
-            for node, section in sections.items():
-                if node.endswith("decision_node") or node == "/**":
-                    values |= section["ros__parameters"]
-        except (AttributeError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
-            reason = " ".join(str(error).split())  # PyYAML writes several lines
-            raise ParametersError(f"{path}: not a parameter file ({reason})") from error
+        values = read_parameters(path)["decision_node"]
         return cls(
             str(values.get("explorer", DEFAULTS.explorer)),
             str(values.get("way_home", DEFAULTS.way_home)),

@@ -22,7 +22,8 @@ from rover_common.ros.conversions import run_of
 from rover_common.types import CameraFrame
 from rover_recorder.conversions import message_of
 from rover_recorder.reader import find_recording, open_recording
-from rover_simulator.recordings.recording import LOG_NAME, RecordedFrame, read_recording
+from rover_simulator.recordings.recording import LOG_NAME, RecordedFrame
+from rover_tools.evaluation.recordings import load_log
 from rover_tools.runner.recorded_run import FRAME_TYPES, FrameMessages, recorded_run
 
 MOST_FRAMES = 500  # that are mapped: 20 s at 25 frames a second
@@ -87,7 +88,7 @@ def load_run(path: Path, choice: FrameChoice) -> ExplainedFrames:
 
 
 def _of_log(path: Path, choice: FrameChoice) -> ExplainedFrames:
-    found = ((frame.time, frame) for frame in read_recording(path).frames)
+    found = ((frame.time, frame) for frame in load_log(path).frames)
     chosen, title = _chosen(found, choice, path)
     return ExplainedFrames(title, tuple(_frame_of_log(*each) for each in chosen), 0)
 

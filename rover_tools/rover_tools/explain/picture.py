@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
+from rover_common.whole_file import whole_file
 from rover_tools.explain.baseline_panels import baseline_panels
 from rover_tools.explain.baseline_stages import run_baseline
 from rover_tools.explain.frames import ExplainedFrames
@@ -62,7 +63,9 @@ def draw_stages(pairs: Sequence[tuple[Panel, Panel]], title: str = "") -> Pictur
 
 def explain(source: ExplainedFrames, file: Path) -> None:
     """Write the picture as PNG. Raises as `stage_panels`, and OSError."""
-    draw_stages(stage_panels(source), source.title).savefig(file, format="png")
+    figure = draw_stages(stage_panels(source), source.title)
+    with whole_file(file) as draft:
+        figure.savefig(draft, format="png")
 
 
 def _draw_panel(part: SubFigure, side: int, panel: Panel) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from rover_common.whole_file import write_whole
 from rover_tools.evaluation.map_files import save_map_server_pair
 from rover_tools.evaluation.results import Result
 from rover_tools.report.heat_drawing import window_of
@@ -40,14 +41,14 @@ def write_heat_files(folder: Path, log: HeatLog, snapshots: Sequence[HeatSnapsho
         log.maze.save(folder / MAZE)
     if log.grid is not None:
         save_map_server_pair(log.grid, folder / "map")
-    (folder / "map.svg").write_text(heat_map(log))
+    write_whole(folder / "map.svg", heat_map(log))
     maze = heat_maze(log)
     if maze is not None:
-        (folder / "maze.svg").write_text(maze)
-    (folder / TRACK).write_text(heat_track_csv(log.track))
+        write_whole(folder / "maze.svg", maze)
+    write_whole(folder / TRACK, heat_track_csv(log.track))
     video = None
     if snapshots:
         scene = HeatScene(window_of(log), log.maze, log.map_in_world)
         chosen = (snapshots[number] for number in evenly(MOST_FRAMES, len(snapshots)))
         video = write_video(folder / VIDEO, chosen, scene)
-    (folder / REPORT).write_text(heat_page(log, video))
+    write_whole(folder / REPORT, heat_page(log, video))

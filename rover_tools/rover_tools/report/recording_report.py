@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from rover_common.whole_file import write_whole
 from rover_tools.evaluation.results import Result, Truth
 from rover_tools.report.mission_log import track_csv
 from rover_tools.report.mission_page import mission_page
@@ -26,8 +27,8 @@ def write_report(
     mission = read_mission(recording, truth)
     result = result or mission.result()
     log = mission.log(title, result)
-    (folder / TRACK).write_text(track_csv(log.track))
+    write_whole(folder / TRACK, track_csv(log.track))
     scene = RoverScene(window_of(log))
     video = write_video(folder / VIDEO, mission.snapshots(MOST_FRAMES), scene)
-    (folder / REPORT).write_text(mission_page(log, video))
+    write_whole(folder / REPORT, mission_page(log, video))
     return result

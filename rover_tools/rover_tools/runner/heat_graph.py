@@ -10,6 +10,7 @@ from typing import Any
 
 import yaml
 
+from rover_common.whole_file import write_whole
 from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.output import note
 from rover_tools.report.heat_truth import MAZE, TRUTH
@@ -36,7 +37,7 @@ def heat_graph(folder: Path, seed: int, setup: HeatSetup) -> Iterator[HeatProces
     DomainError, GraphNotReadyError or ProcessDiedError.
     """
     parameters = folder.absolute() / PARAMETERS
-    parameters.write_text(yaml.safe_dump(_parameters(folder.absolute(), seed, setup)))
+    write_whole(parameters, yaml.safe_dump(_parameters(folder.absolute(), seed, setup)))
     with reserved_run(folder, HeatWatch) as run:
         for node, package in NODES.items():
             command = node_command(package, node, parameters, {"use_sim_time": node != SIMULATOR})

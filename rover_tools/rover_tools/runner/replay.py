@@ -28,7 +28,8 @@ def replay(recording: Recording, run: Run, truth: Truth, in_flight: int, title: 
     playback = _play_with_progress(recording, run, in_flight)
     track = np.array([(frame.pose.x, frame.pose.y) for frame in recording.frames])
     last_stamp = round(playback.last_time * 1e9)
-    return write_replay(playback, last_stamp, track, run, truth, title, {})
+    remarks: Result = {"remarks": recording.remarks()}
+    return write_replay(playback, last_stamp, track, run, truth, title, remarks)
 
 
 def write_replay(
@@ -38,12 +39,12 @@ def write_replay(
     run: Run,
     truth: Truth,
     title: str,
-    comparison: Result,
+    others: Result,
 ) -> Result:
     """Score what the graph published of a replay, and write the results.
 
-    last_stamp [ns]: of the last frame; track: positions (n, 2) [m]. `comparison` becomes a part of
-    the result.
+    last_stamp [ns]: of the last frame; track: positions (n, 2) [m]. `others` become parts of the
+    result.
     """
     run.processes.check()
     grid = run.watch.wait_map(last_stamp, MAP_SECONDS)
@@ -54,7 +55,7 @@ def write_replay(
         "frames_per_second": round(playback.frames / playback.seconds, 1),
         "latency_ms_p50": percentile_ms(playback.latencies, 50),
         "latency_ms_p99": percentile_ms(playback.latencies, 99),
-        **comparison,
+        **others,
         **score(grid, rocks, truth),
         "counts": run.watch.counts(),
     }

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from rover_common.ros.shared_memory import remove_stale_memory
 from rover_tools.output import note
 from rover_tools.runner.domain import reserved_domain
 from rover_tools.runner.graph import HOST, NODES, default_parameters, free_port, start_graph
@@ -49,6 +50,7 @@ def reserved_run(folder: Path, watch: Callable[[int], W]) -> Iterator[ProcessRun
 
     watch: makes the watch of a domain. Raises DomainError.
     """
+    remove_stale_memory()
     with reserved_domain() as domain_id:
         environment = {"ROS_DOMAIN_ID": str(domain_id)}
         with Processes(folder / "log", environment) as processes, watch(domain_id) as watching:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from rover_common.whole_file import write_whole
 from rover_tools.report.pages import render
 from rover_tools.scoreboard.board import Board, Summary
 from rover_tools.scoreboard.scatter import KINDS
-from rover_tools.scoreboard.store import Entry, write_whole
+from rover_tools.scoreboard.store import Entry
 
 REPORT = "report.html"
 
@@ -25,6 +26,6 @@ def write_report(
         board=board, rows=[row.cells() for row in rows], entries=entries,
         scatter=board.scatter(entries), kinds=KINDS,
     )  # fmt: skip
-    write_whole(folder / REPORT, page.encode())
+    write_whole(folder / REPORT, page)
     for name, text in board.texts(rows).items():
-        write_whole(folder / name, text.encode())
+        write_whole(folder / name, text)

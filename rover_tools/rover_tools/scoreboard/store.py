@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rover_common.whole_file import write_whole
 from rover_tools.evaluation.results import Result
 from rover_tools.scoreboard.errors import ScoreboardError
 from rover_tools.scoreboard.missions import Files, MissionJob
@@ -84,14 +84,7 @@ class Store:
         for suffix, data in (files or {}).items():
             write_whole(path.with_name(job.name + suffix), data)
         content = {"settings": job.settings(), "failed": files is None, "result": result}
-        write_whole(path, (json.dumps(content, indent=2) + "\n").encode())
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file so that no reader ever sees a part of it."""
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
-    draft.write_bytes(content)
-    draft.replace(path)
+        write_whole(path, json.dumps(content, indent=2) + "\n")
 
 
 def _read(path: Path) -> Entry:

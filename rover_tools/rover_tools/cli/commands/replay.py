@@ -59,7 +59,8 @@ def command(
       ./rover replay results/seed-3
     """
     from rover_recorder.reader import find_recording
-    from rover_simulator.recordings.recording import read_recording
+    from rover_tools.evaluation.parameters import read_parameters
+    from rover_tools.evaluation.recordings import load_log
     from rover_tools.evaluation.results import Truth, summary
     from rover_tools.runner.recorded_run import recorded_run
     from rover_tools.runner.recording import load_recording
@@ -68,12 +69,14 @@ def command(
     from rover_tools.runner.run import running_graph
 
     known = Truth.load(truth, samples)
+    if params is not None:
+        read_parameters(params)  # for its errors: the nodes read it themselves
     if find_recording(path) is not None:
         recording = recorded_run(load_recording(path))
         folder = result_folder("replay", out)
         result = replay_recording(recording, folder, params, known, in_flight)
     else:
-        log = read_recording(path, yaw_convention)
+        log = load_log(path, yaw_convention)
         folder = result_folder("replay", out)
         with running_graph(folder, OVERRIDES, params) as run:
             result = replay(log, run, known, in_flight, str(path))

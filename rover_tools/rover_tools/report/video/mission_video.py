@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from rover_common.whole_file import whole_file
 from rover_tools.report.video.composition import HEIGHT, WIDTH, Composition, S, Scene
 from rover_tools.report.video.snapshot import Video
 from rover_tools.report.video.writer import FPS, VideoWriter
@@ -17,7 +18,7 @@ LAST_FRAMES = 2 * FPS  # for which the end is shown
 def write_video(path: Path, snapshots: Iterable[S], scene: Scene[S]) -> Video:
     """Write a WebM file with a frame for each snapshot; the last one stays for a while."""
     composition, frames, picture = Composition(scene), 0, None
-    with VideoWriter(path, WIDTH, HEIGHT) as video:
+    with whole_file(path) as draft, VideoWriter(draft, WIDTH, HEIGHT) as video:
         for snapshot in snapshots:
             picture = composition.frame(snapshot)
             video.add(picture)

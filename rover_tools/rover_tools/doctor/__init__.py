@@ -1,0 +1,1 @@
+"""Finds mistakes in the set-up of this machine and of the running graph."""
