@@ -14,27 +14,49 @@ import engineio
 import socketio
 from engineio import packet
 
-from rover_bridge.fast_websocket import FastWebSocketWSGI
+from rover_bridge.connections import Connection, Connections
+from rover_bridge.flow_control import ClientFlow, StalledClientError
+from rover_bridge.gate import WsgiApp
+from rover_bridge.transport import WireLimits
+from rover_bridge.wire_format import WirePacket
+from rover_bridge.wire_websocket import WireWebSocketWSGI
 
 SOCKETIO_CONNECT = "0"  # connect to the default namespace
 EXPECTS_CONNECT = "rover_bridge.expects_connect"  # in the environ of a client that said EIO=3
-
-WsgiApp = Callable[[dict[str, Any], Callable[..., Any]], Iterable[bytes]]
+TELEMETRY = "telemetry"  # the one event that clients send
 
 
 class DualProtocolEngineServer(engineio.Server):
     """An Engine.IO server whose sockets understand both protocols."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
+    def __init__(
+        self, *args: Any, limits: WireLimits, connections: Connections, **kwargs: Any
+    ) -> None:
         super().__init__(*args, **kwargs)
-        self._async: Any = {**self._async, "websocket": FastWebSocketWSGI}
+        self.limits = limits
+        self.connections = connections
+        self._async: Any = {**self._async, "websocket": WireWebSocketWSGI}
+
+    def close_silent_sessions(self, silent_since: float) -> None:
+        """End the sessions of polling clients that were heard before this time [s] of the
+        monotonic clock; a WebSocket has its own deadline.
+        """
+        for socket in [*self.sockets.values()]:
+            receiver = socket.receive
+            if not isinstance(receiver, DualProtocolReceiver):
+                continue  # it connects at this moment
+            if not socket.upgraded and receiver.flow.last_heard < silent_since:
+                socket.close(wait=False)
+                self.sockets.pop(socket.sid, None)
 
     def _trigger_event(self, event: str, *args: Any, **kwargs: Any) -> Any:
         if event != "connect":
             return super()._trigger_event(event, *args, **kwargs)
         sid, environ = args
-        receiver = DualProtocolReceiver(self.sockets[sid])
-        self.sockets[sid].receive = receiver
+        socket = self.sockets[sid]
+        flow = ClientFlow(self.limits.client_rate, socket.queue.qsize)
+        receiver = DualProtocolReceiver(socket, flow, self.connections.of(environ))
+        socket.receive = receiver
         result = super()._trigger_event(event, *args, **kwargs)
         if environ.get(EXPECTS_CONNECT):
             receiver.connect()
@@ -42,12 +64,14 @@ class DualProtocolEngineServer(engineio.Server):
 
 
 class DualProtocolReceiver:
-    """Receives the packets of one socket."""
+    """Receives the packets of one socket, at the rate of its flow."""
 
-    def __init__(self, socket: Any) -> None:
+    def __init__(self, socket: Any, flow: ClientFlow, connection: Connection | None) -> None:
         self._socket = socket
         self._receive = socket.receive
+        self._connection = connection
         self._connected = False  # to the default namespace
+        self.flow = flow
 
     def connect(self) -> None:
         """Connect to the default namespace, as if the client had asked for it."""
@@ -55,22 +79,61 @@ class DualProtocolReceiver:
         self._receive(packet.Packet(packet.MESSAGE, SOCKETIO_CONNECT))
 
     def __call__(self, received: packet.Packet) -> None:
+        try:
+            self.flow.wait_turn()
+        except StalledClientError as error:
+            if self._connection is not None:  # what waits for the client would not let it end
+                self._connection.close("408 Request Timeout", str(error))
+            raise
+        if self._connection is not None:
+            self._connection.heard = self.flow.last_heard
         if received.packet_type == packet.PING:
             self._receive(packet.Packet(packet.PONG))  # the library's proof that a client is alive
             self._socket.send(packet.Packet(packet.PONG, received.data))
+        elif received.packet_type == packet.MESSAGE:
+            self._receive_message(received)
+        else:
+            self._receive(received)
+
+    def _receive_message(self, received: packet.Packet) -> None:
+        asks = str(received.data).startswith(SOCKETIO_CONNECT)
+        namespace = str(received.data)[1:2] == "/"
+        if asks and not namespace:
+            if not self._connected:  # a second time would begin another session in this one
+                self._connected = True
+                self._receive(received)
             return
-        if received.packet_type == packet.MESSAGE and not self._connected:
-            self._connected = True
-            if not str(received.data).startswith(SOCKETIO_CONNECT):
-                self.connect()
+        if not self._connected:
+            self.connect()
         self._receive(received)
+
+    def note_telemetry(self) -> None:
+        """The client sent one: it is owed an answer, and its connection is in use."""
+        self.flow.owed += 1
+        if self._connection is not None:
+            self._connection.sent_telemetry = True
 
 
 class DualProtocolServer(socketio.Server):
     """A Socket.IO server over it."""
 
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(serializer=WirePacket, **kwargs)
+
+    def receiver_of(self, client: str) -> DualProtocolReceiver | None:
+        """That of a client; None when it has left."""
+        socket = self.eio.sockets.get(self.manager.eio_sid_from_sid(client, "/"))
+        return None if socket is None else socket.receive
+
     def _engineio_server_class(self) -> type[engineio.Server]:
         return DualProtocolEngineServer
+
+    def _handle_event(self, eio_sid: str, namespace: str | None, id: int | None, data: Any) -> None:
+        """Pass the telemetry on alone: the library takes an event for its own by its name, so that
+        a client could report that it has connected or disconnected.
+        """
+        if isinstance(data, list) and data and data[0] == TELEMETRY:
+            super()._handle_event(eio_sid, namespace, id, data)
 
 
 def accept_legacy_queries(app: WsgiApp) -> WsgiApp:
