@@ -16,7 +16,7 @@ class _Client:
 
 
 class ActiveClient:
-    """The first client whose telemetry arrives is active until its connection ends.
+    """The first client whose telemetry can be used is active until its connection ends.
 
     One other may take over: a simulator that was reloaded. It is on the same machine, and has
     connected after the active one was last heard. So neither a client that waits, nor one
@@ -32,16 +32,20 @@ class ActiveClient:
         """A client has connected at `now` [s] of wall time."""
         self._clients[client] = _Client(address, now)
 
-    def accept(self, client: str, now: float, owes: bool) -> bool:
-        """Whether this client, heard at `now` [s] of wall time, is the active client.
+    def accepts(self, client: str, now: float, owes: bool) -> bool:
+        """Whether this client, heard at `now` [s] of wall time, is the active one or may become it.
 
         owes: whether the active client has all its answers, so that the next telemetry is its.
         """
-        if self.name is None or (client != self.name and owes and self._replaces(client, now)):
-            self.name = client
         if client == self.name:
             self._last_heard = now
-        return client == self.name
+            return True
+        return self.name is None or (owes and self._replaces(client, now))
+
+    def activate(self, client: str, now: float) -> None:
+        """A client that is accepted has sent a telemetry that can be used."""
+        self.name = client
+        self._last_heard = now
 
     def silence(self, now: float) -> float:
         """[s] since the active client was last heard."""

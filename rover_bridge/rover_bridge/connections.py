@@ -7,6 +7,7 @@ one of the others has ended.
 from __future__ import annotations
 
 import contextlib
+import select
 import socket
 import struct
 import time
@@ -25,6 +26,7 @@ REFUSAL_SECONDS = 0.5  # [s] in which a client that is refused may read why
 MAX_REFUSALS = 32  # that wait for this at a time; more are closed at once
 TRY_AGAIN = 1013  # WebSocket status
 CLOSE_FRAME = 0x88
+GONE = getattr(select, "POLLRDHUP", 0)  # of Linux; errors are reported anyway
 
 
 @dataclass
@@ -36,6 +38,12 @@ class Connection:
     heard: float = field(default_factory=time.monotonic)  # [s] of its latest message
     is_websocket: bool = False
     sent_telemetry: bool = False
+
+    def gone(self) -> bool:
+        """Whether the other end has closed it, however much there is to read."""
+        poll = select.poll()
+        poll.register(self.socket.fileno(), GONE)
+        return bool(poll.poll(0))
 
     def close(self, status: str, reason: str) -> None:
         """Tell why, if its buffer has room, and end it."""

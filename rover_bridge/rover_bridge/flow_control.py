@@ -25,23 +25,36 @@ class StalledClientError(RoverError):
     """A client sends and does not read."""
 
 
+class ClientGoneError(RoverError):
+    """A client has ended its connection, with more left to read than its rate allows."""
+
+
 class ClientFlow:
     """Of one client, in the server's thread."""
 
-    def __init__(self, rate: float, queued: Callable[[], int]) -> None:
-        """rate [1/s]: of messages that are read; queued: packets on their way to the client."""
+    def __init__(
+        self, rate: float, queued: Callable[[], int], gone: Callable[[], bool] = lambda: False
+    ) -> None:
+        """rate [1/s]: of messages that are read; queued: packets on their way to the client;
+        gone: whether it has ended its connection.
+        """
         self._messages = TokenBucket(rate, BURST)
         self._queued = queued
+        self._gone = gone
         self.owed = 0  # telemetries without their answer
         self.last_heard = time.monotonic()  # [s]
 
     def wait_turn(self) -> None:
         """Wait until the next message may be handled; the other clients have their turns first.
 
-        Raises StalledClientError for a client that does not read its answers.
+        Raises StalledClientError for a client that does not read its answers, ClientGoneError for
+        one that has left.
         """
         self.last_heard = now = time.monotonic()
-        eventlet.sleep(self._messages.take(now))
+        delay = self._messages.take(now)
+        if delay > 0.0 and self._gone():
+            raise ClientGoneError("a client has left more than is read")
+        eventlet.sleep(delay)
         while self.owed >= MAX_OWED or self._queued() >= MAX_QUEUED:
             if time.monotonic() - now > STALL_SECONDS:
                 raise StalledClientError("a client does not read its answers")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from typing import Any
+from urllib.parse import parse_qs
 
 import engineio
 import socketio
@@ -49,14 +50,24 @@ class DualProtocolEngineServer(engineio.Server):
                 socket.close(wait=False)
                 self.sockets.pop(socket.sid, None)
 
+    def handle_request(
+        self, environ: dict[str, Any], start_response: Callable[..., Any]
+    ) -> Iterable[bytes]:
+        """Also note on which connection a session is from now on."""
+        sid = parse_qs(environ.get("QUERY_STRING", "")).get("sid", [""])[0]
+        socket = self.sockets.get(sid)
+        if socket is not None and isinstance(socket.receive, DualProtocolReceiver):
+            socket.receive.follow(self.connections.of(environ))
+        answer: Iterable[bytes] = super().handle_request(environ, start_response)
+        return answer
+
     def _trigger_event(self, event: str, *args: Any, **kwargs: Any) -> Any:
         if event != "connect":
             return super()._trigger_event(event, *args, **kwargs)
         sid, environ = args
         socket = self.sockets[sid]
-        flow = ClientFlow(self.limits.client_rate, socket.queue.qsize)
-        receiver = DualProtocolReceiver(socket, flow, self.connections.of(environ))
-        socket.receive = receiver
+        socket.receive = receiver = DualProtocolReceiver(socket, self.limits.client_rate)
+        receiver.follow(self.connections.of(environ))
         result = super()._trigger_event(event, *args, **kwargs)
         if environ.get(EXPECTS_CONNECT):
             receiver.connect()
@@ -66,12 +77,19 @@ class DualProtocolEngineServer(engineio.Server):
 class DualProtocolReceiver:
     """Receives the packets of one socket, at the rate of its flow."""
 
-    def __init__(self, socket: Any, flow: ClientFlow, connection: Connection | None) -> None:
+    def __init__(self, socket: Any, rate: float) -> None:
         self._socket = socket
         self._receive = socket.receive
-        self._connection = connection
+        self._connection: Connection | None = None
         self._connected = False  # to the default namespace
-        self.flow = flow
+        self._sent_telemetry = False
+        self.flow = ClientFlow(rate, socket.queue.qsize, self._gone)
+
+    def follow(self, connection: Connection | None) -> None:
+        """The session is on this connection from now on."""
+        self._connection = connection
+        if connection is not None and self._sent_telemetry:
+            connection.sent_telemetry = True
 
     def connect(self) -> None:
         """Connect to the default namespace, as if the client had asked for it."""
@@ -107,9 +125,14 @@ class DualProtocolReceiver:
             self.connect()
         self._receive(received)
 
+    def _gone(self) -> bool:
+        connection = self._connection
+        return connection is not None and connection.is_websocket and connection.gone()
+
     def note_telemetry(self) -> None:
         """The client sent one: it is owed an answer, and its connection is in use."""
         self.flow.owed += 1
+        self._sent_telemetry = True
         if self._connection is not None:
             self._connection.sent_telemetry = True
 

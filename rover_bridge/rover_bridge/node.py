@@ -150,43 +150,41 @@ class BridgeNode(Node):
     def _on_telemetry(self, event: TelemetryReceived) -> None:
         if uses_decimal_comma(event.wire):
             self._comma_clients.add(event.client)
-        if not self._accept(event.client):
-            self._refuse(event.client, Counter.SECOND_CLIENT, "another client is active: braking")
+        client, now = event.client, time.monotonic()
+        if not self._active.accepts(client, now, owes=self._requests.empty):
+            self._refuse(client, Counter.SECOND_CLIENT, "another client is active: braking")
             return
         if self._requests.full:
-            self._refuse(event.client, Counter.OVERLOADED, "too many requests are pending: braking")
+            self._refuse(client, Counter.OVERLOADED, "too many requests are pending: braking")
             return
         try:
             telemetry = decode_telemetry(event.wire)
         except TelemetryError as error:
-            self._refuse(event.client, error.counter, f"telemetry dropped: {error}")
+            self._refuse(client, error.counter, f"telemetry dropped: {error}")
             return
+        if client != self._active.name:
+            self._activate(client, now)
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
         run, stamp = self._runs.track(telemetry, self._time_of(telemetry))
         if run.start == stamp:
             self._diagnostics.counts[Counter.RUNS] = run.number
             self.get_logger().info(f"run {run.number} begins: {self._runs.reason}")
         self._topics.publish(stamp, run, telemetry)
-        self._insets.follow(event.client, event.wire, run, telemetry.pose)
-        request = PendingRequest.of(event.client, stamp, time.monotonic(), telemetry)
+        self._insets.follow(client, event.wire, run, telemetry.pose)
+        request = PendingRequest.of(client, stamp, time.monotonic(), telemetry)
         self._requests.add(request)  # at last: what fails before has another answer
 
-    def _accept(self, client: str) -> bool:
-        """Whether this client is the active one; says so when it becomes that."""
-        before, now = self._active.name, time.monotonic()
-        silence = self._active.silence(now)
-        if not self._active.accept(client, now, owes=self._requests.empty):
-            return False
-        if before not in (None, client):
+    def _activate(self, client: str, now: float) -> None:
+        """Another client is the active one from now on."""
+        before = self._active.name
+        if before is not None:
+            silence = self._active.silence(now)
             self._requests.clear()
-            self._count(
-                Counter.TAKEOVERS,
-                f"client {client} takes over from {before}, which was silent for {silence:.1f} s",
-            )
-        if before != client:
-            self.get_logger().info(f"client {client} is active")
-            self._publish_state()
-        return True
+            text = f"client {client} takes over from {before}, which was silent for {silence:.1f} s"
+            self._count(Counter.TAKEOVERS, text)
+        self._active.activate(client, now)
+        self.get_logger().info(f"client {client} is active")
+        self._publish_state()
 
     def _on_command(self, message: DriveCommand) -> None:
         stamp, command = command_of(message)

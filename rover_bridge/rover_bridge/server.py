@@ -19,6 +19,7 @@ from eventlet.hubs import trampoline
 
 from rover_bridge.access import Access
 from rover_bridge.connections import Connections, DeadlineHttpProtocol
+from rover_bridge.flow_control import ClientGoneError
 from rover_bridge.gate import Gate
 from rover_bridge.legacy_engineio import TELEMETRY, DualProtocolServer, accept_legacy_queries
 from rover_bridge.transport import (
@@ -48,6 +49,8 @@ class _ErrorLog(logging.Handler):
         self._on_event = on_event
 
     def emit(self, record: logging.LogRecord) -> None:
+        if record.exc_info and isinstance(record.exc_info[1], ClientGoneError):
+            return  # it ends in any case
         cause = f": {record.exc_info[1]!r}" if record.exc_info else ""
         self._on_event(ProtocolErrorReported((record.getMessage() + cause)[:200]))
 
