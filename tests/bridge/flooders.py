@@ -1,15 +1,12 @@
 """Clients that harm, in processes of their own: so they take no time of the server's interpreter.
 
-By hand, on a machine that does nothing else:
-
-    ./rover shell -c 'python tests/bridge/flooders.py flood PORT --clients 1 --rate 10000 --seconds 5'
+By hand: python tests/bridge/flooders.py flood PORT --rate 10000 --seconds 5
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
 import socket
 import struct
 import subprocess
@@ -17,6 +14,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 HANDSHAKE = (
     "GET /socket.io/?EIO=4&transport=websocket HTTP/1.1\r\nHost: 127.0.0.1\r\n"
@@ -96,7 +94,7 @@ def hold(port: int, clients: int, kind: str, seconds: float) -> None:
 def running(*arguments: object) -> Iterator[None]:
     """One of them in a process, from its start on."""
     process = subprocess.Popen(
-        [sys.executable, os.path.abspath(__file__), *map(str, arguments)],
+        [sys.executable, Path(__file__).resolve(), *map(str, arguments)],
         stdout=subprocess.PIPE,
         text=True,
     )

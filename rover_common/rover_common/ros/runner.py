@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import os
+import re
 import signal
+import sys
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import rclpy
-from rclpy._rclpy_pybind11 import RCLError
+from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
 
+from rover_common.errors import RoverError
 from rover_common.ros.fast_dds import use_profiles
+from rover_common.ros.parameters import ParameterError
 
 try:  # handles messages faster, but knows no guard conditions; not in every release of Jazzy
     from rclpy.experimental import EventsExecutor
@@ -20,6 +27,24 @@ except ImportError:
 
 # An idle executor's endless wait now and then misses a signal; a bounded one never does.
 WAIT_SECONDS = 0.2
+MAX_DOMAIN = 232  # beyond, DDS has no ports
+SOURCE_LINE = re.compile(r", at /.*", re.DOTALL)  # of the C library, in its messages
+
+
+class StartError(RoverError):
+    """ROS cannot start with these arguments, or in this environment."""
+
+
+def start_ros(args: list[str] | None = None, **options: Any) -> None:
+    """As rclpy.init; raises StartError for arguments or a domain that are none."""
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
+    if not (domain.isdecimal() and int(domain) <= MAX_DOMAIN):
+        raise StartError(f"ROS_DOMAIN_ID is '{domain}', not a number from 0 to {MAX_DOMAIN}")
+    use_profiles()
+    try:
+        rclpy.init(args=args, **options)
+    except (RCLError, RCLInvalidROSArgsError, UnknownROSArgsError) as error:
+        raise StartError(SOURCE_LINE.sub("", str(error))) from error
 
 
 def spin_for(executor: Executor, seconds: float) -> None:
@@ -32,12 +57,23 @@ def run_node(
     args: list[str] | None = None,
     executor_class: Callable[[], Executor] = EventsExecutor,
 ) -> None:
-    """Make the node and spin it in this thread."""
+    """Make the node and spin it in this thread.
+
+    Ends the program with one line where ROS or the node's parameters do not let it start.
+    """
+    try:
+        _run(factory, args, executor_class)
+    except (StartError, ParameterError) as error:
+        sys.exit(f"{Path(sys.argv[0]).name}: {error}")
+
+
+def _run(
+    factory: Callable[[], Node], args: list[str] | None, executor_class: Callable[[], Executor]
+) -> None:
     # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
     # raised at an arbitrary line.
     signal.signal(signal.SIGINT, lambda *_: None)
-    use_profiles()
-    rclpy.init(args=args)
+    start_ros(args)
     node = None
     try:
         node = factory()
