@@ -211,7 +211,7 @@ def _listen(host: str, port: int) -> socket.socket:
         except OSError:
             listener.close()
             raise
-    except (OSError, UnicodeError, OverflowError) as error:
+    except (OSError, ValueError, OverflowError) as error:
         if getattr(error, "errno", None) == errno.EADDRINUSE:
             raise PortInUseError(
                 f"port {port} of {host} is in use: end the other program, or choose a port"
