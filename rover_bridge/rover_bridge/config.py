@@ -26,7 +26,7 @@ class BridgeConfig:
         "", "what clients have to send as token=... in the query of their URL; empty for none"
     )
     max_connections: int = parameter(
-        64, "connections that may be open, and sessions", minimum=2, maximum=900
+        64, "connections that may be open at a time", minimum=2, maximum=900
     )
     client_rate: float = parameter(
         400.0,

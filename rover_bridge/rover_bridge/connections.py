@@ -61,7 +61,7 @@ class Connections:
         self._limit = limit
         self._on_refused = on_refused
         self._open: dict[str, Connection] = {}
-        self._threads: dict[str, Any] = {}
+        self._threads: set[Any] = set()
         self._refusals = eventlet.GreenPool(MAX_REFUSALS)
         self._accepts = TokenBucket(ACCEPT_RATE, ACCEPT_RATE)
 
@@ -80,9 +80,10 @@ class Connections:
                 return eventlet.spawn(lambda: None)
             return self._refusals.spawn(_refuse, raw, reason)
         key = f"{host} {port}"
-        self._open[key] = Connection(raw, host)
-        self._threads[key] = thread = eventlet.spawn(serve, state)
-        thread.link(lambda _: self._forget(key))
+        self._open[key] = connection = Connection(raw, host)
+        thread = eventlet.spawn(serve, state)
+        self._threads.add(thread)
+        thread.link(self._forget, key, connection)
         return thread
 
     def waitall(self) -> None:
@@ -90,12 +91,13 @@ class Connections:
 
     def kill_all(self) -> None:
         """End all connections."""
-        for thread in [*self._threads.values(), *self._refusals.coroutines_running]:
+        for thread in [*self._threads, *self._refusals.coroutines_running]:
             thread.kill()
 
-    def _forget(self, key: str) -> None:
-        self._open.pop(key, None)
-        self._threads.pop(key, None)
+    def _forget(self, thread: Any, key: str, connection: Connection) -> None:
+        self._threads.discard(thread)
+        if self._open.get(key) is connection:  # else it made room, and its port is in use again
+            del self._open[key]
 
     def _make_room(self) -> bool:
         """End the connection without a telemetry that was silent for longest; False for none."""

@@ -24,6 +24,7 @@ from rover_bridge.wire_websocket import WireWebSocketWSGI
 
 SOCKETIO_CONNECT = "0"  # connect to the default namespace
 EXPECTS_CONNECT = "rover_bridge.expects_connect"  # in the environ of a client that said EIO=3
+SESSIONS_PER_CONNECTION = 2  # those of connections that made room end a little later
 TELEMETRY = "telemetry"  # the one event that clients send
 
 
@@ -49,6 +50,23 @@ class DualProtocolEngineServer(engineio.Server):
             if not socket.upgraded and receiver.flow.last_heard < silent_since:
                 socket.close(wait=False)
                 self.sockets.pop(socket.sid, None)
+
+    def make_room(self) -> bool:
+        """Whether one more session may begin; ends a polling one without a telemetry for it."""
+        if len(self.sockets) < SESSIONS_PER_CONNECTION * self.limits.max_connections:
+            return True
+        idle = [
+            socket
+            for socket in self.sockets.values()
+            if isinstance(socket.receive, DualProtocolReceiver)
+            and not socket.upgraded
+            and not socket.receive.sent_telemetry
+        ]
+        if idle:
+            oldest = min(idle, key=lambda socket: float(socket.receive.flow.last_heard))
+            oldest.close(wait=False)
+            self.sockets.pop(oldest.sid, None)
+        return bool(idle)
 
     def handle_request(
         self, environ: dict[str, Any], start_response: Callable[..., Any]
@@ -82,13 +100,14 @@ class DualProtocolReceiver:
         self._receive = socket.receive
         self._connection: Connection | None = None
         self._connected = False  # to the default namespace
-        self._sent_telemetry = False
+        self._failure: Exception | None = None
+        self.sent_telemetry = False
         self.flow = ClientFlow(rate, socket.queue.qsize, self._gone)
 
     def follow(self, connection: Connection | None) -> None:
         """The session is on this connection from now on."""
         self._connection = connection
-        if connection is not None and self._sent_telemetry:
+        if connection is not None and self.sent_telemetry:
             connection.sent_telemetry = True
 
     def connect(self) -> None:
@@ -100,8 +119,7 @@ class DualProtocolReceiver:
         try:
             self.flow.wait_turn()
         except StalledClientError as error:
-            if self._connection is not None:  # what waits for the client would not let it end
-                self._connection.close("408 Request Timeout", str(error))
+            self._end(str(error))  # what waits for the client would not let it end
             raise
         if self._connection is not None:
             self._connection.heard = self.flow.last_heard
@@ -112,6 +130,13 @@ class DualProtocolReceiver:
             self._receive_message(received)
         else:
             self._receive(received)
+        if self._failure is not None:
+            self._end(f"no packet: {type(self._failure).__name__}")
+            raise self._failure
+
+    def fail(self, error: Exception) -> None:
+        """A message is no packet: its connection ends, so that its client does not wait for ever."""
+        self._failure = error
 
     def _receive_message(self, received: packet.Packet) -> None:
         asks = str(received.data).startswith(SOCKETIO_CONNECT)
@@ -125,6 +150,12 @@ class DualProtocolReceiver:
             self.connect()
         self._receive(received)
 
+    def _end(self, reason: str) -> None:
+        if self._connection is not None and self._connection.is_websocket:
+            self._connection.close("400 Bad Request", reason)
+        else:
+            self._socket.close(wait=False)
+
     def _gone(self) -> bool:
         connection = self._connection
         return connection is not None and connection.is_websocket and connection.gone()
@@ -132,7 +163,7 @@ class DualProtocolReceiver:
     def note_telemetry(self) -> None:
         """The client sent one: it is owed an answer, and its connection is in use."""
         self.flow.owed += 1
-        self._sent_telemetry = True
+        self.sent_telemetry = True
         if self._connection is not None:
             self._connection.sent_telemetry = True
 
@@ -147,6 +178,13 @@ class DualProtocolServer(socketio.Server):
         """That of a client; None when it has left."""
         socket = self.eio.sockets.get(self.manager.eio_sid_from_sid(client, "/"))
         return None if socket is None else socket.receive
+
+    def _handle_eio_message(self, eio_sid: str, data: Any) -> None:
+        """Engine.IO logs an error of this handler, and goes on."""
+        try:
+            super()._handle_eio_message(eio_sid, data)
+        except Exception as error:
+            self.eio.sockets[eio_sid].receive.fail(error)
 
     def _engineio_server_class(self) -> type[engineio.Server]:
         return DualProtocolEngineServer

@@ -125,7 +125,7 @@ class SocketServer:
             Gate(
                 accept_legacy_queries(socketio.WSGIApp(server)),
                 self._access,
-                has_room=lambda: len(server.eio.sockets) < self._limits.max_connections,
+                has_room=server.eio.make_room,
                 on_refused=self._report_refusal,
             ),
             log=logging.Logger("wsgi", logging.CRITICAL),
@@ -165,7 +165,8 @@ class SocketServer:
         self._on_event(Connected(client, environ["REMOTE_ADDR"]))
 
     def _on_telemetry(self, receiver: Any, client: str, arguments: tuple[object, ...]) -> None:
-        receiver.note_telemetry()
+        if receiver is not None:
+            receiver.note_telemetry()
         wire = arguments[0] if len(arguments) == 1 else arguments
         self._on_event(TelemetryReceived(client, wire))
 

@@ -69,7 +69,7 @@ OnEvent = Callable[[ServerEvent], None]
 class WireLimits:
     """What one client, and all of them, may take."""
 
-    max_connections: int = 64  # open at a time, and as many sessions
+    max_connections: int = 64  # open at a time
     client_rate: float = 400.0  # [1/s] messages of one client that are read
     idle_limit: float = 60.0  # [s] without a message, after which a connection is closed
 

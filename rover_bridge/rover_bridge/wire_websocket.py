@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import eventlet
@@ -17,6 +17,7 @@ from engineio.async_drivers.eventlet import WebSocketWSGI
 from eventlet.websocket import FailedConnectionError, RFC6455WebSocket
 
 from rover_bridge.rate_limit import TokenBucket
+from rover_bridge.transport import WireLimits
 from rover_bridge.wire_format import MAX_MESSAGE_BYTES, WireError, check_packet
 
 GOING_AWAY, POLICY_VIOLATION, TOO_BIG = 1001, 1008, 1009  # WebSocket status
@@ -39,12 +40,19 @@ class WireWebSocket(RFC6455WebSocket):
 
     _apply_mask = staticmethod(apply_mask)
 
-    def __init__(self, sock: Any, environ: dict[str, Any], rate: float, idle_limit: float) -> None:
-        """rate [1/s]: of messages; idle_limit [s]: in which a whole message has to arrive."""
+    def __init__(
+        self,
+        sock: Any,
+        environ: dict[str, Any],
+        limits: WireLimits,
+        on_error: Callable[[str], None],
+    ) -> None:
+        """on_error: told of messages that are no packet."""
         super().__init__(sock, environ, max_frame_length=MAX_MESSAGE_BYTES)
         self.log = io.StringIO()  # it reports that it closes twice
-        self._idle_limit = idle_limit
-        self._bytes = TokenBucket(rate * BYTES_PER_MESSAGE, 2.0 * MAX_MESSAGE_BYTES)
+        self._idle_limit = limits.idle_limit
+        self._on_error = on_error
+        self._bytes = TokenBucket(limits.client_rate * BYTES_PER_MESSAGE, 2.0 * MAX_MESSAGE_BYTES)
         self._size = 0  # [B] of the message so far
         self._frames = 0
 
@@ -68,6 +76,7 @@ class WireWebSocket(RFC6455WebSocket):
         try:
             check_packet(message)
         except WireError as error:
+            self._on_error(f"no packet: {error}")
             raise self._closed(POLICY_VIOLATION, str(error)) from None
         return str(message)
 
@@ -99,12 +108,11 @@ class WireWebSocketWSGI(WebSocketWSGI):
         self.support_legacy_versions = False  # handshakes from before RFC 6455
         self._limits = server.limits
         self._connections = server.connections
+        self._on_error = server.logger.error
 
     def _handle_hybi_request(self, environ: dict[str, Any]) -> WireWebSocket:
         opened = super()._handle_hybi_request(environ)
         connection = self._connections.of(environ)
         if connection is not None:
             connection.is_websocket = True
-        return WireWebSocket(
-            opened.socket, environ, self._limits.client_rate, self._limits.idle_limit
-        )
+        return WireWebSocket(opened.socket, environ, self._limits, self._on_error)

@@ -1,4 +1,4 @@
-"""The socket server beside clients that harm: the others are served, and who is refused knows why."""
+"""The socket server beside clients that harm: it serves the others, and tells why it refuses."""
 
 from __future__ import annotations
 

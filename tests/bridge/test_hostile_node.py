@@ -1,4 +1,4 @@
-"""The bridge node beside clients that harm: each telemetry has one answer, and says why it brakes."""
+"""The bridge node beside clients that harm: each telemetry has one answer, a brake its reason."""
 
 from __future__ import annotations
 
@@ -97,9 +97,7 @@ def test_a_client_that_waits_does_not_become_active_while_the_simulator_pauses(
     assert {status.run for status in bridge.decider.statuses} == {1}
 
 
-def test_a_simulator_that_was_reloaded_takes_over_and_the_counter_says_so(
-    ros, bridge, monkeypatch
-):
+def test_a_simulator_that_was_reloaded_takes_over_and_the_counter_says_so(ros, bridge, monkeypatch):
     monkeypatch.setattr(active_client, "SILENCE", 0.1)
 
     def body() -> bool:

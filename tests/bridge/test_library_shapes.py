@@ -1,4 +1,4 @@
-"""The parts of eventlet, engineio and socketio that are not public, and that the bridge relies on."""
+"""The parts of eventlet, engineio and socketio that are private, and that the bridge relies on."""
 
 import inspect
 
@@ -31,6 +31,7 @@ def parameters(function: object) -> list[str]:
         (engineio.socket.Socket.receive, ["self", "pkt"]),
         (engineio.socket.Socket.close, ["self", "wait", "abort", "reason"]),
         (socketio.Server._handle_event, ["self", "eio_sid", "namespace", "id", "data"]),
+        (socketio.Server._handle_eio_message, ["self", "eio_sid", "data"]),
         (socketio.Server._engineio_server_class, ["self"]),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import http.client
+import json
 from collections.abc import Iterator
 
 import pytest
@@ -25,7 +26,9 @@ class Door:
         self.server = SocketServer(host, 0, self.events.append, WireLimits(), access)
         self.port = self.server.port
 
-    def ask(self, path: str = POLLING, method: str = "GET", **headers: str) -> tuple[int, str, dict]:
+    def ask(
+        self, path: str = POLLING, method: str = "GET", **headers: str
+    ) -> tuple[int, str, dict]:
         """Status, body and headers of the answer."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=WAIT)
         named = {name.replace("_", "-"): value for name, value in headers.items()}
@@ -101,17 +104,19 @@ def test_a_body_that_is_none_is_refused(door, headers, status):
     assert door.ask(method="POST", **headers)[0] == status
 
 
-def test_the_number_of_sessions_is_bounded():
-    events: list[ServerEvent] = []
-    server = SocketServer("127.0.0.1", 0, events.append, WireLimits(max_connections=3))
+def test_a_session_that_is_silent_makes_room():
+    server = SocketServer("127.0.0.1", 0, lambda event: None, WireLimits(max_connections=3))
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=WAIT)
-    answers = []
-    for _ in range(4):  # on one connection
-        connection.request("GET", POLLING)
+
+    def ask(method: str, sid: str = "", body: str | None = None) -> tuple[int, str]:
+        connection.request(method, POLLING + (f"&sid={sid}" if sid else ""), body)
         answer = connection.getresponse()
-        answers.append((answer.status, answer.read()))
-    assert [status for status, _ in answers] == [200, 200, 200, 503]
-    assert answers[-1][1] == b"too many sessions are open\n"
+        return answer.status, answer.read().decode()
+
+    begun = [ask("GET") for _ in range(7)]  # on one connection
+    assert [status for status, _ in begun] == [200] * 7
+    sids = [json.loads(body[1:])["sid"] for _, body in begun]
+    assert [ask("POST", sid, "40")[0] for sid in sids] == [400] + [200] * 6
     connection.close()
     server.close()
 
@@ -133,14 +138,16 @@ def test_addresses_of_this_machine_are_listened_on(host):
         door = Door(Access(), host)
     except ListenError as error:
         pytest.skip(f"this machine has no {host}: {error}")
-    name = "[::1]" if ":" in host else "127.0.0.1"
+    name = "[::1]" if ":" in host else host
     url = f"ws://{name}:{door.port}/socket.io/?EIO=4&transport=websocket"
     websocket.create_connection(url, timeout=WAIT).shutdown()  # its origin is the address
     assert door.refusals == []
     door.server.close()
 
 
-@pytest.mark.parametrize("host", ["192.0.2.7", "2001:db8::1", "no.such.host.invalid", "a b", "\x00"])
+@pytest.mark.parametrize(
+    "host", ["192.0.2.7", "2001:db8::1", "no.such.host.invalid", "a b", "\x00"]
+)
 def test_other_addresses_are_one_clear_error(host):
     with pytest.raises(ListenError, match="cannot listen on"):
         Door(Access(), host)
