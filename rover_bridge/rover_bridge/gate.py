@@ -54,9 +54,10 @@ class Gate:
             self._check(environ)
         except RequestError as error:
             self._on_refused(environ["REMOTE_ADDR"], str(error))
-            headers = [("Content-Type", "text/plain"), ("Connection", "close")]
-            start_response(error.status, headers)
-            return [f"{error}\n".encode()]
+            body = f"{error}\n".encode()
+            headers = [("Content-Type", "text/plain"), ("Content-Length", str(len(body)))]
+            start_response(error.status, [*headers, ("Connection", "close")])
+            return [body]
         return self._app(environ, start_response)
 
     def _check(self, environ: dict[str, Any]) -> None:

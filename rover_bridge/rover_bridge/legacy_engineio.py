@@ -135,7 +135,7 @@ class DualProtocolReceiver:
             raise self._failure
 
     def fail(self, error: Exception) -> None:
-        """A message is no packet: its connection ends, so that its client does not wait for ever."""
+        """A message is no packet: its connection ends, so that nobody waits for an answer to it."""
         self._failure = error
 
     def _receive_message(self, received: packet.Packet) -> None:

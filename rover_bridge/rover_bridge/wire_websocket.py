@@ -61,7 +61,7 @@ class WireWebSocket(RFC6455WebSocket):
 
         Raises WireError, after closing, for what is no packet, or when none came in time.
         """
-        self.socket.settimeout(self._idle_limit)  # also for what is sent
+        self.socket.settimeout(self._idle_limit + 1.0)  # for what is sent; the deadline is earlier
         deadline = eventlet.Timeout(self._idle_limit)
         try:
             message = super().wait()

@@ -12,6 +12,7 @@ import websocket
 from rover_bridge.access import Access
 from rover_bridge.server import SocketServer
 from rover_bridge.transport import ConnectionRefused, ListenError, ServerEvent, WireLimits
+from rover_simulator.wire.unity_client import ConnectionLostError, UnityClient
 
 PAGE, EVIL = "http://robot:8000", "http://evil.example"
 POLLING = "/socket.io/?EIO=4&transport=polling"
@@ -129,6 +130,17 @@ def test_the_token_opens_the_door():
     door.open("&token=t-1")
     door.open(header=["Authorization: Bearer t-1"])
     assert len(door.refusals) == 1
+    door.server.close()
+
+
+def test_a_simulator_is_told_why_it_is_refused():
+    door = Door(Access(token="t-1"))
+    told: list[str] = []
+    simulator = UnityClient("127.0.0.1", door.port, told.append)
+    for _ in range(2):
+        with pytest.raises(ConnectionLostError, match="token"):
+            simulator.connect(timeout=WAIT)
+    assert told == [simulator.refused]
     door.server.close()
 
 
