@@ -1,6 +1,6 @@
 """Clients that harm, in processes of their own: so they take no time of the server's interpreter.
 
-By hand: python tests/bridge/flooders.py flood PORT --rate 10000 --seconds 5
+By hand: python tests/flooders.py flood PORT --rate 10000 --seconds 5
 """
 
 from __future__ import annotations
