@@ -4,113 +4,20 @@ from __future__ import annotations
 
 import json
 import socket
-import struct
 import time
-from collections.abc import Callable, Iterator
-from queue import Queue
 
 import pytest
-import websocket
+from answering_server import WAIT, answers, closing, event, read_all
 from flooders import HANDSHAKE, frame, open_websocket, running
-from telemetry import telemetry
 
 from rover_bridge import connections, flow_control
 from rover_bridge.flow_control import BURST, MAX_OWED
-from rover_bridge.server import SocketServer
 from rover_bridge.transport import (
     Connected,
     ConnectionRefused,
     Disconnected,
-    ProtocolErrorReported,
-    ServerEvent,
     TelemetryReceived,
-    WireLimits,
 )
-from rover_bridge.wire_format import MAX_MESSAGE_BYTES
-from rover_simulator.wire.unity_client import OPEN, UnityClient
-
-WAIT = 60.0  # [s] what a test waits at most; a busy machine is slow
-DRIVE = {"steering_angle": "0", "throttle": "0", "brake": "1"}
-
-
-class Answering:
-    """A server that answers each telemetry at once, and keeps what else happened."""
-
-    def __init__(self, limits: WireLimits) -> None:
-        self.events: Queue[ServerEvent] = Queue()
-        self.answering = True
-        self.server = SocketServer("127.0.0.1", 0, self._on_event, limits)
-        self.port = self.server.port
-
-    def _on_event(self, event: ServerEvent) -> None:
-        self.events.put(event)
-        if self.answering and isinstance(event, TelemetryReceived):
-            self.server.send(event.client, "data", DRIVE)
-
-    def next(self, kind: type, count: int = 1) -> ServerEvent:
-        """The next event of this kind, or the one that makes so many."""
-        while True:
-            event = self.events.get(timeout=WAIT)
-            if isinstance(event, kind):
-                count -= 1
-                if count == 0:
-                    return event
-
-    def so_far(self, kind: type) -> list[ServerEvent]:
-        events = [self.events.get_nowait() for _ in range(self.events.qsize())]
-        return [event for event in events if isinstance(event, kind)]
-
-
-@pytest.fixture
-def serve() -> Iterator[Callable[..., Answering]]:
-    started: list[Answering] = []
-
-    def start(**limits: float) -> Answering:
-        started.append(Answering(WireLimits(**limits)))
-        return started[-1]
-
-    yield start
-    for answering in started:
-        answering.server.close()
-
-
-def answers(port: int, count: int) -> int:
-    """How many of so many telemetries of a new simulator are answered, one after the other."""
-    client = UnityClient("127.0.0.1", port)
-    client.connect(timeout=WAIT)
-    try:
-        for done in range(count):
-            client.send_telemetry(telemetry())
-            while (event := client.receive(timeout=WAIT)) and event.name == OPEN:
-                pass
-            if event is None:
-                return done
-        return count
-    finally:
-        client.close()
-
-
-def read_all(connection: socket.socket) -> bytes:
-    """What comes until the server ends the connection."""
-    connection.settimeout(WAIT)
-    data = b""
-    try:
-        while part := connection.recv(4096):
-            data += part
-    except ConnectionError:
-        pass
-    return data
-
-
-def closing(data: bytes) -> tuple[int, str]:
-    """Status and reason of the closing frame at the end of what a WebSocket received."""
-    start = data.rindex(b"\x88")
-    (status,) = struct.unpack("!H", data[start + 2 : start + 4])
-    return status, data[start + 4 :].decode()
-
-
-def event(name: str, *data: object) -> bytes:
-    return frame("42" + json.dumps([name, *data]))
 
 
 @pytest.mark.parametrize("clients", [1, 8])
@@ -196,72 +103,3 @@ def test_a_polling_session_that_is_silent_ends(serve):
         raw.sendall(f"{post}Content-Length: 2\r\n\r\n40".encode())
         answering.next(Connected)
     answering.next(Disconnected)
-
-
-def test_events_with_the_names_of_the_librarys_own_change_nothing(serve):
-    answering = serve()
-    with open_websocket(answering.port) as raw:
-        raw.sendall(event("telemetry", {}))
-        answering.next(TelemetryReceived)
-        raw.sendall(event("disconnect") + event("connect", {}) + frame("40") + event("other", 1))
-        raw.sendall(event("telemetry", {"number": "2"}))
-        later = []
-        while not isinstance(received := answering.events.get(timeout=WAIT), TelemetryReceived):
-            later.append(received)
-        assert later == []
-        assert received.wire == {"number": "2"}
-
-
-def test_an_integer_of_any_length_is_handed_over(serve):
-    answering = serve()
-    with open_websocket(answering.port) as raw:
-        raw.sendall(frame('42["telemetry",{"speed":' + "9" * 5000 + "}]"))
-        received = answering.next(TelemetryReceived)
-        assert received.wire == {"speed": float("inf")}
-
-
-@pytest.mark.parametrize(
-    "garbage",
-    [
-        frame(""),
-        frame("hello"),
-        frame("4[" + "[" * 500),
-        frame('42["telemetry",' + "[" * 5000),
-        frame("451-[]"),
-        frame("42[", opcode=2),
-        frame("4" + "2" * 300_000),
-        frame("x", opcode=3),
-        frame('42["telemetry",{}]')[:1] + b"\x10" + b"x" * 16,  # not masked
-    ],
-    ids=range(9),
-)
-def test_garbage_ends_the_connection_of_a_client_that_has_joined(serve, garbage):
-    answering = serve()
-    with open_websocket(answering.port) as raw:
-        raw.sendall(event("telemetry", {}))
-        answering.next(TelemetryReceived)
-        raw.sendall(garbage)
-        answering.next(Disconnected)
-        read_all(raw)
-    assert answers(answering.port, 1) == 1
-
-
-def test_a_message_of_many_frames_is_bounded(serve):
-    answering = serve()
-    part = "x" * 2**20
-    with open_websocket(answering.port) as raw:
-        raw.sendall(frame("42" + part, final=False))
-        for _ in range(MAX_MESSAGE_BYTES // len(part)):
-            raw.sendall(frame(part, opcode=0, final=False))
-        assert closing(read_all(raw))[0] == 1009
-    assert answering.so_far(ProtocolErrorReported) == []
-
-
-def test_no_compression_is_agreed_on(serve):
-    raw = websocket.create_connection(
-        f"ws://127.0.0.1:{serve().port}/socket.io/?EIO=4&transport=websocket",
-        header=["Sec-WebSocket-Extensions: permessage-deflate"],
-        timeout=WAIT,
-    )
-    assert "sec-websocket-extensions" not in raw.headers
-    raw.shutdown()
