@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_bridge import jpeg_header
 from rover_bridge.errors import (
     Base64Error,
     ImageSizeError,
@@ -37,7 +38,12 @@ THROTTLE_LIMIT = 3.0
 COUNT_LIMIT = 1000  # samples; the world has 6
 TIME_LIMIT = 1e9  # [s]
 
-JPEG_START, JPEG_END = b"\xff\xd8", b"\xff\xd9"
+MAX_IMAGE_TEXT = jpeg_header.MAX_BYTES * 4 // 3 + 4  # characters of base64
+# Where its data ends, a JPEG decoder leaves the rest of the picture at this level.
+UNDECODED = 128
+# More data, of no meaning: a decoder that had all it needs leaves it alone.
+# It begins with 0, as a file may be cut within FF 00, the code of a byte FF.
+EXTRA_DATA = bytes(range(128))
 
 Wire = Mapping[str, Any]
 
@@ -68,17 +74,31 @@ def decode_telemetry(wire: object) -> Telemetry:
 
 
 def decode_jpeg(data: bytes) -> NDArray[np.uint8]:
-    """An image (height, width, 3) RGB of the camera's size; raises JpegError or ImageSizeError."""
-    # The decoder fills the rest of a truncated file with grey instead of refusing it.
-    if not (data.startswith(JPEG_START) and data.endswith(JPEG_END)):
-        raise JpegError("image is not a whole JPEG file")
+    """An image (height, width, 3) RGB of the camera's size; raises JpegError or ImageSizeError.
+
+    Nothing of another size or kind is decoded: a file of 1 kB may claim a picture of gigabytes.
+    """
+    header = jpeg_header.read_header(data)
+    if (header.width, header.height) != (ROVER_CAMERA.width, ROVER_CAMERA.height):
+        raise ImageSizeError(f"image is {header.width} x {header.height} pixels")
+    image = _pixels(data)
+    # The decoder fills what is missing with grey instead of refusing it. A picture that is grey
+    # there itself is the same with more data behind it.
+    if np.all(image[-4:, -4:] == UNDECODED):
+        longer = data.removesuffix(jpeg_header.END) + EXTRA_DATA + jpeg_header.END
+        if not np.array_equal(image, _pixels(longer)):
+            raise JpegError("image ends before its last row")
+    return image
+
+
+def _pixels(data: bytes) -> NDArray[np.uint8]:
     try:
         image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
     except cv2.error:
         image = None
     if image is None:
         raise JpegError("image cannot be decoded")
-    if image.shape != (ROVER_CAMERA.height, ROVER_CAMERA.width, 3):
+    if image.shape != (ROVER_CAMERA.height, ROVER_CAMERA.width, 3):  # as after a rotation by EXIF
         raise ImageSizeError(f"image is {image.shape[1]} x {image.shape[0]} pixels")
     return cv2.cvtColor(image, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)
 
@@ -102,9 +122,15 @@ def shows_insets(wire: object) -> bool:
 
 
 def encode_drive(
-    command: Command, decimal_comma: bool = False, insets: Insets = NO_INSETS
+    command: Command,
+    decimal_comma: bool = False,
+    insets: Insets = NO_INSETS,
+    refused: str = "",
 ) -> dict[str, str]:
-    """The object of a `data` event; a value that is not finite becomes the safe brake."""
+    """The object of a `data` event; a value that is not finite becomes the safe brake.
+
+    refused: why the telemetry was not used; empty when it was.
+    """
     values = (command.steering_angle, command.throttle, command.brake)
     if not all(math.isfinite(value) for value in values):
         values = (0.0, 0.0, 1.0)
@@ -117,7 +143,8 @@ def encode_drive(
     }
     if decimal_comma:  # the simulator parses in its machine's culture
         drive = {key: value.replace(".", ",") for key, value in drive.items()}
-    return drive | {"inset_image1": insets.map, "inset_image2": insets.birdseye}
+    drive |= {"inset_image1": insets.map, "inset_image2": insets.birdseye}
+    return drive | {"refused": refused} if refused else drive
 
 
 def _pose(wire: Wire) -> Pose:
@@ -143,6 +170,8 @@ def _jpeg(wire: Wire) -> bytes:
     text = _value(wire, "image")
     if not isinstance(text, str):
         raise Base64Error(f"image is {type(text).__name__}, expected a string")
+    if len(text) > MAX_IMAGE_TEXT:
+        raise JpegError(f"image has {len(text)} characters")
     try:
         return base64.b64decode(text, validate=True)
     except (binascii.Error, ValueError) as error:

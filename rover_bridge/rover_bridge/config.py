@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rover_bridge.access import Access
+from rover_bridge.transport import WireLimits
 from rover_common.config import parameter
 
 
@@ -14,6 +16,29 @@ class BridgeConfig:
     host: str = parameter("127.0.0.1", "address to listen on; 0.0.0.0 for other machines too")
     port: int = parameter(
         4567, "TCP port, 0 for any free one; the simulator wants 4567", minimum=0, maximum=65535
+    )
+    allowed_origins: str = parameter(
+        "",
+        "origins of pages that may connect, separated by spaces, such as http://robot:8000; the "
+        "bridge's own address is always one",
+    )
+    token: str = parameter(
+        "", "what clients have to send as token=... in the query of their URL; empty for none"
+    )
+    max_connections: int = parameter(
+        64, "connections that may be open at a time", minimum=2, maximum=900
+    )
+    client_rate: float = parameter(
+        400.0,
+        "[1/s] messages of one client that are read; a client that sends more has to wait",
+        minimum=10.0,
+        maximum=10000.0,
+    )
+    idle_limit: float = parameter(
+        60.0,
+        "[s] without a message, after which a connection is closed; the simulator pings after 25",
+        minimum=1.0,
+        maximum=86400.0,
     )
     answer_deadline: float = parameter(
         0.5,
@@ -33,3 +58,11 @@ class BridgeConfig:
     truth: str = parameter(
         "", "picture of the true map, for the colours of the map's inset; empty for none"
     )
+
+    def limits(self) -> WireLimits:
+        """Those of the transport."""
+        return WireLimits(self.max_connections, self.client_rate, self.idle_limit)
+
+    def access(self) -> Access:
+        """Raises AccessError."""
+        return Access(self.allowed_origins, self.token)

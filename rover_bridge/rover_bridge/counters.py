@@ -9,6 +9,8 @@ class Counter(StrEnum):
     """Counts events of the node, but for `RUNS`, which is a number."""
 
     CONNECTIONS = "connections"  # clients that have connected
+    CONNECTIONS_REFUSED = "connections_refused"  # connections, requests and sessions
+    TAKEOVERS = "takeovers"  # active clients that another one replaced
     PROTOCOL_ERRORS = "protocol_errors"  # messages that are no packet of either protocol
     TELEMETRIES = "telemetries"  # decoded and published
     RUNS = "runs"  # number of the present run
@@ -18,6 +20,7 @@ class Counter(StrEnum):
     DEADLINE_MISSED = "deadline_missed"  # with the brake: no decision in time
     SECOND_CLIENT = "second_client"  # with the brake: another client is active
     OVERLOADED = "overloaded"  # with the brake: too many requests are pending
+    FAILED = "failed"  # with the brake: the node could not handle it, which is a defect of the node
     PICKUP_SENT = "pickup_sent"  # with a pickup
     PICKUP_REFUSED = "pickup_refused"  # with the brake: nothing in reach, or the rover moves
     PICKUP_ALREADY_RUNNING = "pickup_already_running"  # with the brake

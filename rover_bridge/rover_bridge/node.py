@@ -8,55 +8,49 @@ counters.Counter and errors. Answers may carry pictures, which node_insets draws
 
 from __future__ import annotations
 
-import sys
 import time
-from collections import deque
 from pathlib import Path
 from typing import Any
 
-from nav_msgs.msg import Odometry
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rosgraph_msgs.msg import Clock as ClockMsg
-from rover_interfaces.msg import DriveCommand, RoverStatus
-from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+from rover_interfaces.msg import DriveCommand
 from std_msgs.msg import String
-from tf2_msgs.msg import TFMessage
 
-from rover_bridge import conversions
+from rover_bridge.active_client import ActiveClient
 from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comma
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
+from rover_bridge.inbox import Inbox
 from rover_bridge.node_insets import InsetDrawer
+from rover_bridge.node_publishers import TelemetryPublishers
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
 from rover_bridge.run_tracker import RunTracker
-from rover_bridge.server import (
+from rover_bridge.server import SocketServer
+from rover_bridge.transport import (
     Connected,
+    ConnectionRefused,
+    Disconnected,
     ProtocolErrorReported,
     ServerEvent,
-    SocketServer,
     TelemetryReceived,
+    Transport,
 )
-from rover_common import frames, topics
+from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
-from rover_common.ros.conversions import (
-    NANOSECONDS,
-    command_of,
-    image_message_of,
-    jpeg_message_of,
-    odometry_of,
-)
+from rover_common.ros.conversions import NANOSECONDS, command_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.types import SAFE_COMMAND, Run, Telemetry
+from rover_common.types import SAFE_COMMAND, Telemetry
 
 LOG_PERIOD = 5.0  # [s] between two lines about the same counter
 CHECKS_PER_DEADLINE = 4
+EVENTS_PER_TURN = 4  # taken from the inbox before commands and deadlines have their turn
 
 
 class BridgeNode(Node):
@@ -64,24 +58,37 @@ class BridgeNode(Node):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("bridge_node", **kwargs)
-        config = declare_parameters(self, BridgeConfig)
+        try:
+            self._start(declare_parameters(self, BridgeConfig))
+        except BaseException:
+            self.destroy_node()  # before the context ends, which it must not outlive
+            raise
+
+    def _start(self, config: BridgeConfig) -> None:
         truth = load_truth(Path(config.truth)) if config.truth else None
         self._insets = InsetDrawer(self, config, truth)
+        self._active = ActiveClient()
         self._requests = PendingRequests(config.answer_deadline)
         self._runs = RunTracker()
         self._comma_clients: set[str] = set()
         self._warned: dict[str, float] = {}  # [s] wall time of the last line per counter
-        self._make_endpoints()
-        self._inbox: deque[ServerEvent] = deque()
+        self._inbox = Inbox()
         self._arrival = self.create_guard_condition(self._on_arrivals)
+        self._server: Transport = SocketServer(
+            config.host,
+            config.port,
+            self._on_server_event,
+            config.limits(),
+            config.access(),
+        )
+        self.port = self._server.port
+        self._make_endpoints()
         # Wall time: a deadline that waited for simulated time would never come.
         self._deadline_timer = self.create_timer(
             config.answer_deadline / CHECKS_PER_DEADLINE,
             self._check_deadlines,
             clock=Clock(clock_type=ClockType.STEADY_TIME),
         )
-        self._server = SocketServer(config.host, config.port, self._on_server_event)
-        self.port = self._server.port
         self.get_logger().info(f"listening on {config.host}:{self.port}")
         self._publish_state()
 
@@ -94,63 +101,58 @@ class BridgeNode(Node):
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
-        publish = self.create_publisher
-        self._image = publish(Image, topics.IMAGE, qos.FRAME)
-        self._compressed = publish(CompressedImage, topics.COMPRESSED_IMAGE, qos.FRAME)
-        self._odometry = publish(Odometry, topics.ODOMETRY, qos.FRAME)
-        self._status = publish(RoverStatus, topics.STATUS, qos.FRAME)
-        self._camera_info = publish(CameraInfo, topics.CAMERA_INFO, qos.FRAME)
-        self._state = publish(String, topics.BRIDGE_STATE, qos.LATCHED)
-        self._clock_publisher = publish(ClockMsg, "/clock", qos.CLOCK)
-        self._tf = publish(TFMessage, "/tf", qos.TF)
-        self._tf_static = publish(TFMessage, "/tf_static", qos.TF_STATIC)
-        self._tf_static.publish(conversions.static_transforms_of(self._now()))
+        self._topics = TelemetryPublishers(self, self._now())
+        self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
         command = self.create_subscription(
             DriveCommand, topics.COMMAND, self._on_command, qos.FRAME
         )
-        peers = {
-            "perception": lambda: self._image.get_subscription_count() > 0,
-            "odometry": lambda: self._odometry.get_subscription_count() > 1,
-            "decision": lambda: (
-                command.get_publisher_count() > 0 and self._status.get_subscription_count() > 0
-            ),
-        }
-        self._diagnostics = NodeDiagnostics(self, peers)
+        self._diagnostics = NodeDiagnostics(self, self._topics.peers(command))
 
     def _on_server_event(self, event: ServerEvent) -> None:
         """Called in the server's thread."""
-        self._inbox.append(event)
+        self._inbox.put(event)
         self._arrival.trigger()
 
     def _on_arrivals(self) -> None:
-        while self._inbox:
-            event = self._inbox.popleft()
-            if isinstance(event, TelemetryReceived):
+        for _ in range(EVENTS_PER_TURN):
+            event = self._inbox.take()
+            if event is None:
+                return
+            self._on_event(event)
+        self._arrival.trigger()
+
+    def _on_event(self, event: ServerEvent) -> None:
+        if isinstance(event, TelemetryReceived):
+            try:
                 self._on_telemetry(event)
-            elif isinstance(event, Connected):
-                self._diagnostics.counts[Counter.CONNECTIONS] += 1
-                self.get_logger().info(f"client {event.client} connected")
-            elif isinstance(event, ProtocolErrorReported):
-                self._diagnostics.counts[Counter.PROTOCOL_ERRORS] += 1
-                self._warn(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
-            else:
-                self.get_logger().info(f"client {event.client} disconnected")
-                if event.client == self._requests.active_client:
-                    self._insets.leave()
-                self._requests.remove_client(event.client)
-                self._comma_clients.discard(event.client)
-                self._publish_state()
+            except Exception as error:  # a defect of this node: also this one has its answer
+                self._refuse(event.client, Counter.FAILED, f"telemetry failed: {error!r:.200}")
+        elif isinstance(event, Connected):
+            self._active.connect(event.client, event.address, time.monotonic())
+            self._diagnostics.counts[Counter.CONNECTIONS] += 1
+            self.get_logger().debug(f"client {event.client} of {event.address} connected")
+        elif isinstance(event, ProtocolErrorReported):
+            self._count(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
+        elif isinstance(event, ConnectionRefused):
+            self._count(Counter.CONNECTIONS_REFUSED, f"{event.address} refused: {event.reason}")
+        elif isinstance(event, Disconnected):
+            self._on_disconnected(event.client)
+
+    def _on_disconnected(self, client: str) -> None:
+        self._comma_clients.discard(client)
+        if self._active.disconnect(client):
+            self.get_logger().info(f"client {client} disconnected")
+            self._insets.leave()
+            self._requests.clear()
+            self._publish_state()
 
     def _on_telemetry(self, event: TelemetryReceived) -> None:
         if uses_decimal_comma(event.wire):
             self._comma_clients.add(event.client)
-        client, active_before = event.client, self._requests.active_client
-        if not self._requests.accept(client, time.monotonic()):
+        client, now = event.client, time.monotonic()
+        if not self._active.accepts(client, now, owes=self._requests.empty):
             self._refuse(client, Counter.SECOND_CLIENT, "another client is active: braking")
             return
-        if self._requests.active_client != active_before:
-            self.get_logger().info(f"client {client} is active")
-            self._publish_state()
         if self._requests.full:
             self._refuse(client, Counter.OVERLOADED, "too many requests are pending: braking")
             return
@@ -159,36 +161,29 @@ class BridgeNode(Node):
         except TelemetryError as error:
             self._refuse(client, error.counter, f"telemetry dropped: {error}")
             return
+        if client != self._active.name:
+            self._activate(client, now)
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
         run, stamp = self._runs.track(telemetry, self._time_of(telemetry))
         if run.start == stamp:
             self._diagnostics.counts[Counter.RUNS] = run.number
-            self.get_logger().info(f"run {run.number} begins")
-        self._requests.add(
-            PendingRequest(
-                client=client,
-                stamp=stamp,
-                arrived=time.monotonic(),
-                speed=telemetry.speed,
-                near_sample=telemetry.near_sample,
-                picking_up=telemetry.picking_up,
-            )
-        )
-        self._publish(stamp, run, telemetry)
+            self.get_logger().info(f"run {run.number} begins: {self._runs.reason}")
+        self._topics.publish(stamp, run, telemetry)
         self._insets.follow(client, event.wire, run, telemetry.pose)
+        request = PendingRequest.of(client, stamp, time.monotonic(), telemetry)
+        self._requests.add(request)  # at last: what fails before has another answer
 
-    def _publish(self, stamp: int, run: Run, telemetry: Telemetry) -> None:
-        """What the other nodes wait for comes first."""
-        image = image_message_of(stamp, frames.CAMERA_OPTICAL, telemetry.image)
-        self._odometry.publish(odometry_of(stamp, telemetry.pose, telemetry.speed))
-        self._image.publish(image)
-        self._status.publish(conversions.status_of(stamp, run, telemetry))
-        if telemetry.sim_time is not None:
-            self._clock_publisher.publish(conversions.clock_of(stamp))
-        self._tf.publish(conversions.body_transform_of(stamp, telemetry.pose))
-        self._camera_info.publish(conversions.camera_info_of(stamp))
-        if self._compressed.get_subscription_count() > 0:
-            self._compressed.publish(jpeg_message_of(image.header, telemetry.jpeg))
+    def _activate(self, client: str, now: float) -> None:
+        """Another client is the active one from now on."""
+        before = self._active.name
+        if before is not None:
+            silence = self._active.silence(now)
+            self._requests.clear()
+            text = f"client {client} takes over from {before}, which was silent for {silence:.1f} s"
+            self._count(Counter.TAKEOVERS, text)
+        self._active.activate(client, now)
+        self.get_logger().info(f"client {client} is active")
+        self._publish_state()
 
     def _on_command(self, message: DriveCommand) -> None:
         stamp, command = command_of(message)
@@ -208,21 +203,22 @@ class BridgeNode(Node):
             self._send(answer)
 
     def _refuse(self, client: str, counter: str, text: str) -> None:
-        """Answer a telemetry that is not published with the safe brake."""
+        """Answer a telemetry that is not published with the safe brake, and tell why."""
         self._warn(counter, text)
-        self._send(Answer(client, SAFE_COMMAND, counter))
+        self._send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
-    def _send(self, answer: Answer) -> None:
+    def _send(self, answer: Answer, refused: str = "") -> None:
         self._diagnostics.counts[answer.counter] += 1
         if answer.command.pickup:
             self._server.send(answer.client, "pickup", {})
-        else:
-            comma, insets = answer.client in self._comma_clients, self._insets.take(answer.client)
-            self._server.send(answer.client, "data", encode_drive(answer.command, comma, insets))
+            return
+        comma, insets = answer.client in self._comma_clients, self._insets.take(answer.client)
+        drive = encode_drive(answer.command, comma, insets, refused)
+        self._server.send(answer.client, "data", drive)
 
     def _publish_state(self) -> None:
-        active = self._requests.active_client
-        self._state.publish(String(data="disconnected" if active is None else "connected"))
+        state = "disconnected" if self._active.name is None else "connected"
+        self._state.publish(String(data=state))
 
     def _time_of(self, telemetry: Telemetry) -> float:
         """[s] of the simulator's clock, of the node's where the telemetry has no sim_time."""
@@ -230,6 +226,10 @@ class BridgeNode(Node):
 
     def _now(self) -> int:
         return int(self.get_clock().now().nanoseconds)
+
+    def _count(self, counter: str, text: str) -> None:
+        self._diagnostics.counts[counter] += 1
+        self._warn(counter, text)
 
     def _warn(self, counter: str, text: str) -> None:
         """Log a line, unless one about this counter was logged within LOG_PERIOD."""
@@ -241,7 +241,4 @@ class BridgeNode(Node):
 
 def main() -> None:
     """Entry point of `ros2 run rover_bridge bridge_node`."""
-    try:
-        run_node(BridgeNode, executor_class=SingleThreadedExecutor)  # it has a guard condition
-    except (OSError, RoverError) as error:  # such as a port in use, or no file of the truth
-        sys.exit(f"bridge_node: {error}")
+    run_node(BridgeNode, executor_class=SingleThreadedExecutor)  # it has a guard condition

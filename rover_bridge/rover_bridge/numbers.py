@@ -22,6 +22,8 @@ def parse_number(text: object) -> float:
         value = float(text)
     except ValueError:
         raise NumberError(f"{text!r:.40} is not a number") from None
+    except OverflowError:  # an integer of more digits than a float has
+        raise NotFiniteError("an integer of too many digits") from None
     if not math.isfinite(value):
         raise NotFiniteError(f"{text!r:.40} is not finite")
     return value

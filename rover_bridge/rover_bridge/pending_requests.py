@@ -8,16 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rover_bridge.counters import Counter
-from rover_common.types import SAFE_COMMAND, Command
+from rover_common.types import SAFE_COMMAND, Command, Telemetry
 from rover_common.vehicle import ROVER
 
 # Telemetries that may pass before a pickup that was sent must show: twice the pending requests.
 PICKUP_TELEMETRIES = 6
 # A simulator has two or three requests pending; more are answered with the brake at once.
 MAX_PENDING = 8
-# An active client that owes a telemetry for this long is gone: reloading the simulator's scene
-# leaves its socket open, and the reloaded simulator connects on another one.
-SILENCE = 2.0  # [s] of wall time
 
 
 @dataclass(frozen=True)
@@ -30,6 +27,18 @@ class PendingRequest:
     speed: float  # [m/s]
     near_sample: bool
     picking_up: bool
+
+    @classmethod
+    def of(cls, client: str, stamp: int, arrived: float, telemetry: Telemetry) -> PendingRequest:
+        """That of a telemetry."""
+        return cls(
+            client,
+            stamp,
+            arrived,
+            telemetry.speed,
+            telemetry.near_sample,
+            telemetry.picking_up,
+        )
 
     @property
     def allows_pickup(self) -> bool:
@@ -54,26 +63,21 @@ class PendingRequests:
         self._deadline = deadline
         self._pending: dict[int, PendingRequest] = {}
         self._pickup = _PickupState()
-        self._last_received = 0.0  # [s] wall time of the active client's latest telemetry
-        self.active_client: str | None = None
 
     @property
     def full(self) -> bool:
         """Whether more are pending than any simulator sends."""
         return len(self._pending) >= MAX_PENDING
 
-    def accept(self, client: str, now: float) -> bool:
-        """Whether this client, heard at `now` [s] of wall time, is the active client.
+    @property
+    def empty(self) -> bool:
+        """Whether the active client has all its answers."""
+        return not self._pending
 
-        The first client is, until it leaves, or owes a telemetry while another one sends.
-        """
-        silent = not self._pending and now - self._last_received >= SILENCE
-        if self.active_client is None or (client != self.active_client and silent):
-            self.active_client = client
-            self._pickup = _PickupState()
-        if client == self.active_client:
-            self._last_received = now
-        return client == self.active_client
+    def clear(self) -> None:
+        """The active client has left, or another one took over: nothing is owed to it."""
+        self._pending.clear()
+        self._pickup = _PickupState()
 
     def add(self, request: PendingRequest) -> None:
         """A telemetry of the active client was published."""
@@ -102,12 +106,6 @@ class PendingRequests:
         for request in late:
             del self._pending[request.stamp]
         return [Answer(r.client, SAFE_COMMAND, Counter.DEADLINE_MISSED) for r in late]
-
-    def remove_client(self, client: str) -> None:
-        """A client has disconnected: nothing is owed to it, and another one may become active."""
-        if client == self.active_client:
-            self.active_client = None
-            self._pending.clear()
 
 
 class _PickupState:

@@ -40,6 +40,7 @@ class RunTracker:
         self._stamp = -1  # [ns] of the newest telemetry
         self._offset = 0  # [ns] from the clock to the stamps of this run
         self._requested = False
+        self.reason = ""  # why the present run began
 
     def request(self, number: int) -> None:
         """Begin a new run with the next telemetry, if the run of this number is the present one.
@@ -64,7 +65,9 @@ class RunTracker:
             telemetry.sample_count,
         )
         clock = round(time * 1e9)
-        if self._run is None or self._requested or self._begins_run(observed):
+        reason = self._reason_for_run(observed)
+        if self._run is None or reason:
+            self.reason = reason
             self._offset = max(0, self._stamp + 1 - clock)
             number = 1 if self._run is None else self._run.number + 1
             self._run = Run(number, clock + self._offset)
@@ -73,13 +76,21 @@ class RunTracker:
         self._stamp = max(clock + self._offset, self._stamp + 1)
         return self._run, self._stamp
 
-    def _begins_run(self, observed: _Observed) -> bool:
+    def _reason_for_run(self, observed: _Observed) -> str:
+        """Why this telemetry begins a run; empty when it does not."""
         last = self._last
-        assert last is not None
+        if last is None:
+            return "the first telemetry"
+        if self._requested:
+            return "a command asked for it"
         elapsed = observed.time - last.time
-        if elapsed < -CLOCK_FELL_BACK or observed.simulated != last.simulated:
-            return True
+        if observed.simulated != last.simulated:
+            return "the clock has another source"
+        if elapsed < -CLOCK_FELL_BACK:
+            return f"the clock fell back by {-elapsed:.1f} s"
         if observed.sample_count > last.sample_count:
-            return True
+            return f"{observed.sample_count} samples are left, after {last.sample_count}"
         moved = math.hypot(observed.x - last.x, observed.y - last.y)
-        return moved > POSE_JUMPED + ROVER.max_speed * max(0.0, elapsed)
+        if moved > POSE_JUMPED + ROVER.max_speed * max(0.0, elapsed):
+            return f"the rover stands {moved:.0f} m away"
+        return ""

@@ -41,10 +41,15 @@ from visualization_msgs.msg import MarkerArray
 from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
-from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
-from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for, start_errors
+from rover_common.ros.runner import (
+    WAIT_SECONDS,
+    EventsExecutor,
+    spin_for,
+    start_errors,
+    start_ros,
+)
 from rover_dashboard.config import DashboardConfig
 from rover_dashboard.conversions import TF
 from rover_dashboard.feed import Feed
@@ -219,9 +224,8 @@ async def _serve_until_signal(node: DashboardNode, executor: Executor) -> None:
 def main() -> None:
     """Entry point of `ros2 run rover_dashboard dashboard_node`."""
     give_way()
-    use_profiles()
     with start_errors():
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        start_ros(signal_handler_options=SignalHandlerOptions.NO)
         node = DashboardNode()
     try:
         with suppress(KeyboardInterrupt), spinning(node) as executor:

@@ -29,10 +29,15 @@ from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros.conversions import MessageError, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
-from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
-from rover_common.ros.runner import WAIT_SECONDS, EventsExecutor, spin_for, start_errors
+from rover_common.ros.runner import (
+    WAIT_SECONDS,
+    EventsExecutor,
+    spin_for,
+    start_errors,
+    start_ros,
+)
 from rover_recorder import bag
 from rover_recorder.config import RecorderConfig
 from rover_recorder.conversions import (
@@ -190,10 +195,9 @@ def record(args: list[str] | None = None) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _: stop.append(number))
     give_way()
-    use_profiles()
     # rclpy's own handlers would end the subscriptions before what was published has arrived.
     with start_errors():
-        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        start_ros(args, signal_handler_options=SignalHandlerOptions.NO)
     node = None
     try:
         node = RecorderNode()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+import sys
 from pathlib import Path
 
 from rover_simulator.sensors.screen import SavedScreen
@@ -84,8 +85,13 @@ def simulate(
     pacing: Pacing = LockstepPacing(simulation, reports.update)
     if rate is not None:
         pacing = TimedPacing(simulation, reports.update, frame_steps * STEP / rate)
-    run_connected(UnityClient(host, port), pacing, lambda: stop() or simulation.time >= time_limit)
+    client = UnityClient(host, port, _print_refusal)
+    run_connected(client, pacing, lambda: stop() or simulation.time >= time_limit)
     reports.report()
+
+
+def _print_refusal(reason: str) -> None:
+    print(f"rover sim: refused by the server: {reason}", file=sys.stderr)
 
 
 def frame_steps_of(fps: float) -> int:

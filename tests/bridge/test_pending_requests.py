@@ -6,7 +6,6 @@ from rover_bridge.counters import Counter
 from rover_bridge.pending_requests import (
     MAX_PENDING,
     PICKUP_TELEMETRIES,
-    SILENCE,
     PendingRequest,
     PendingRequests,
 )
@@ -30,9 +29,7 @@ def request(stamp: int, **changes) -> PendingRequest:
 
 @pytest.fixture
 def requests() -> PendingRequests:
-    requests = PendingRequests(deadline=0.5)
-    assert requests.accept("a", now=0.0)
-    return requests
+    return PendingRequests(deadline=0.5)
 
 
 def test_a_decision_answers_its_own_frame_once(requests):
@@ -54,24 +51,12 @@ def test_a_late_frame_is_answered_with_the_brake_and_never_again(requests):
     assert requests.answer(1, DRIVE) is None
 
 
-def test_the_first_client_is_active_until_it_disconnects(requests):
-    assert not requests.accept("b", now=0.1)
+def test_nothing_is_owed_to_a_client_that_has_left(requests):
     requests.add(request(1))
-    requests.remove_client("b")
-    assert requests.active_client == "a"
-    requests.remove_client("a")
+    assert not requests.empty
+    requests.clear()
+    assert requests.empty
     assert requests.answer(1, DRIVE) is None
-    assert requests.accept("b", now=0.1)
-
-
-def test_a_silent_active_client_is_replaced(requests):
-    requests.add(request(1))
-    assert not requests.accept("b", now=SILENCE)  # the active client waits for an answer itself
-    requests.answer(1, DRIVE)
-    assert not requests.accept("b", now=SILENCE - 0.1)
-    assert requests.accept("b", now=SILENCE)
-    assert requests.active_client == "b"
-    assert not requests.accept("a", now=SILENCE + 0.1)
 
 
 def test_more_pending_requests_than_a_simulator_sends_are_noticed(requests):

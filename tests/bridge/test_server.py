@@ -19,16 +19,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from telemetry import telemetry
 
-from rover_bridge.fast_websocket import apply_mask
-from rover_bridge.server import (
+from rover_bridge.server import SocketServer
+from rover_bridge.transport import (
     Connected,
     Disconnected,
     PortInUseError,
     ProtocolErrorReported,
     ServerEvent,
-    SocketServer,
     TelemetryReceived,
 )
+from rover_bridge.wire_websocket import apply_mask
 from rover_simulator.wire.unity_client import ConnectionLostError, UnityClient
 
 Events = Queue[ServerEvent]

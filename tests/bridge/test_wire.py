@@ -11,7 +11,8 @@ from telemetry import jpeg, telemetry
 from wire_clients import Unity, answers_to, modern_answers, run_clients, unity_answers
 
 from rover_bridge.node import BridgeNode
-from rover_bridge.server import PortInUseError, SocketServer
+from rover_bridge.server import SocketServer
+from rover_bridge.transport import PortInUseError
 from rover_common.types import Command
 
 REQUESTS = 200

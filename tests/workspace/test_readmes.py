@@ -16,7 +16,7 @@ from rclpy.node import Node
 from readme_tables import ROOT, column, table
 
 from burger_simulator.node import BurgerNode
-from rover_bridge import errors, pending_requests, run_tracker
+from rover_bridge import active_client, errors, run_tracker
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.node import BridgeNode
@@ -168,4 +168,4 @@ def test_the_protocols_document_names_every_defect_and_the_thresholds_of_a_run()
     assert f"by more than {run_tracker.CLOCK_FELL_BACK:g} s" in text
     assert f"by more than {run_tracker.POSE_JUMPED:g} m" in text
     assert f"a speed of at most {ROVER.pickup_speed:g} m/s" in text
-    assert f"owed a telemetry for {pending_requests.SILENCE:g} s" in text
+    assert f"owed a telemetry for {active_client.SILENCE:g} s" in text

@@ -13,6 +13,7 @@ from rcl_interfaces.msg import (
     ParameterDescriptor,
     SetParametersResult,
 )
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -23,7 +24,7 @@ C = TypeVar("C")
 
 
 class ParameterError(RoverError, ValueError):
-    """A parameter's value is not one of its choices."""
+    """A parameter's value has a wrong type, or is out of its range or none of its choices."""
 
 
 def declare_parameters(
@@ -35,8 +36,7 @@ def declare_parameters(
     `on_change` is called with the new configuration then. All others are read-only, and without
     `on_change` every one is.
 
-    Raises rclpy's InvalidParameterTypeException or InvalidParameterValueException for a wrong type
-    or range, and ParameterError for a value that is not one of the choices.
+    Raises ParameterError for a value of a wrong type or range, or that is not one of the choices.
     """
     values: dict[str, Any] = {}
     infos: dict[str, ParameterInfo] = {}
@@ -44,9 +44,12 @@ def declare_parameters(
         info: ParameterInfo = field.metadata["parameter"]
         infos[field.name] = info
         read_only = on_change is None or not info.settable
-        parameter = node.declare_parameter(
-            field.name, field.default, _descriptor(info, field.default, read_only)
-        )
+        try:
+            parameter = node.declare_parameter(
+                field.name, field.default, _descriptor(info, field.default, read_only)
+            )
+        except (InvalidParameterTypeException, InvalidParameterValueException) as error:
+            raise ParameterError(_expected(field.name, field.default, info)) from error
         values[field.name] = parameter.value
         problem = _problem(info, parameter)
         if problem:
@@ -70,6 +73,12 @@ def unknown_parameters(node: Node) -> list[str]:
             near = difflib.get_close_matches(name, known, 1)
             told.append(f"'{name}'; did you mean '{near[0]}'?" if near else f"'{name}'")
     return told
+
+
+def _expected(name: str, default: Any, info: ParameterInfo) -> str:
+    kind = {bool: "true or false", int: "an integer", float: "a number", str: "a text"}
+    limits = "" if info.minimum is None else f" from {info.minimum} to {info.maximum}"
+    return f"the parameter {name} has to be {kind[type(default)]}{limits}"
 
 
 def _follow(

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import rclpy
-from rclpy._rclpy_pybind11 import RCLError, UnknownROSArgsError
+from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.exceptions import ParameterException
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -27,6 +30,25 @@ except ImportError:
 
 # An idle executor's endless wait now and then misses a signal; a bounded one never does.
 WAIT_SECONDS = 0.2
+MAX_DOMAIN = 232  # beyond, DDS has no ports
+SOURCE_LINE = re.compile(r", at /.*", re.DOTALL)  # of the C library, in its messages
+
+
+class StartError(RoverError):
+    """ROS cannot start with these arguments, or in this environment."""
+
+
+def start_ros(args: list[str] | None = None, **options: Any) -> None:
+    """As rclpy.init; raises StartError for arguments or a domain that are none."""
+    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
+    if not (domain.isdecimal() and int(domain) <= MAX_DOMAIN):
+        raise StartError(f"ROS_DOMAIN_ID is '{domain}', not a number from 0 to {MAX_DOMAIN}")
+    use_profiles()
+    remove_stale_memory()
+    try:
+        rclpy.init(args=args, **options)
+    except (RCLError, RCLInvalidROSArgsError, UnknownROSArgsError) as error:
+        raise StartError(SOURCE_LINE.sub("", str(error))) from error
 
 
 def spin_for(executor: Executor, seconds: float) -> None:
@@ -41,10 +63,6 @@ def start_errors() -> Iterator[None]:
         yield
     except (RoverError, ParameterException, OSError) as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {' '.join(str(error).split())}")
-    except (RCLError, UnknownROSArgsError) as error:
-        if rclpy.ok():  # otherwise a signal came while the node was made
-            raise
-        sys.exit(f"{Path(sys.argv[0]).name}: {' '.join(str(error).split())}")
 
 
 def run_node(
@@ -56,10 +74,8 @@ def run_node(
     # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
     # raised at an arbitrary line.
     signal.signal(signal.SIGINT, lambda *_: None)
-    use_profiles()
-    remove_stale_memory()
     with start_errors():
-        rclpy.init(args=args)
+        start_ros(args)
     node = None
     try:
         with start_errors():

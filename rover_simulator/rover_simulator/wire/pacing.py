@@ -50,7 +50,7 @@ def _connect(client: UnityClient, pacing: Pacing, ended: Ended) -> bool:
 
     def wait() -> None:
         nonlocal told
-        if not told:
+        if not told and not client.refused:  # it is told otherwise
             told = True
             print(f"rover sim: no server on {client.address}; waiting for one", file=sys.stderr)
         pacing.while_disconnected()

@@ -51,8 +51,13 @@ class Event:
 class UnityClient:
     """One connection; no thread of its own, so `receive` has to be called for pings to be sent."""
 
-    def __init__(self, host: str, port: int) -> None:
+    def __init__(
+        self, host: str, port: int, on_refused: Callable[[str], None] = lambda reason: None
+    ) -> None:
+        """on_refused: told why the server refuses the connection or a telemetry, once each time."""
         self.address = f"{host}:{port}"
+        self.refused = ""  # why the server refused what was sent last; empty when it did not
+        self._on_refused = on_refused
         self._url = f"ws://{host}:{port}/socket.io/?EIO=4&transport=websocket"
         self._socket: websocket.WebSocket | None = None
         self._next_ping: float | None = None
@@ -63,8 +68,13 @@ class UnityClient:
         socket.settimeout(timeout)
         try:
             socket.connect(self._url, suppress_origin=True)
+        except websocket.WebSocketBadStatusException as error:
+            body = (error.resp_body or b"").decode(errors="replace").strip()
+            self._note_refusal(f"status {error.status_code}: {body}")
+            raise ConnectionLostError(f"{self._url}: {self.refused}") from error
         except (OSError, websocket.WebSocketException, ValueError, IndexError) as error:
             # The last two are the library's, for an answer that is no HTTP.
+            self.refused = ""
             raise ConnectionLostError(f"{self._url}: {error}") from error
         self._socket = socket
         self._send("2")
@@ -151,8 +161,14 @@ class UnityClient:
         if isinstance(members, list) and len(members) in (1, 2) and isinstance(members[0], str):
             data = members[1] if len(members) == 2 else {}
             if isinstance(data, dict):
+                self._note_refusal(str(data.get("refused", "")))
                 return Event(members[0], data)
         raise self._refusal(f"not an event with one object: {text[:80]}")
+
+    def _note_refusal(self, reason: str) -> None:
+        if reason and reason != self.refused:
+            self._on_refused(reason)
+        self.refused = reason
 
     def _refusal(self, reason: str) -> ProtocolError:
         """Closes the socket, as an exception in the original's receiver does."""

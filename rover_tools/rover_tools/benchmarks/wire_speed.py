@@ -8,7 +8,8 @@ import sys
 import threading
 from pathlib import Path
 
-from rover_bridge.server import ServerEvent, SocketServer, TelemetryReceived
+from rover_bridge.server import SocketServer
+from rover_bridge.transport import ServerEvent, TelemetryReceived
 from rover_tools.evaluation.results import Result
 
 FIRST, FRAMES = 20, 200  # frames before the count begins, and usually those that are counted
