@@ -13,6 +13,7 @@ import eventlet
 from rover_bridge.access import Access, Request
 from rover_bridge.rate_limit import TokenBucket
 from rover_bridge.wire_format import MAX_MESSAGE_BYTES, WireError, check_packet
+from rover_common.errors import RoverError
 
 WsgiApp = Callable[[dict[str, Any], Callable[..., Any]], Iterable[bytes]]
 
@@ -21,7 +22,7 @@ SESSION_RATE = 100.0  # [1/s] sessions that begin
 SEPARATOR = "\x1e"  # of the packets of one POST
 
 
-class RequestError(Exception):
+class RequestError(RoverError):
     """A request that is refused."""
 
     def __init__(self, status: str, reason: str) -> None:

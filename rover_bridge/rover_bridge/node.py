@@ -39,7 +39,6 @@ from rover_bridge.transport import (
     Transport,
 )
 from rover_common import topics
-from rover_common.errors import RoverError
 from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
 from rover_common.ros.conversions import NANOSECONDS, command_of

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 import rclpy
 from node_endpoints import endpoints, listed
@@ -11,10 +9,10 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 from readme_tables import ROOT
 
-from rover_bridge import node as bridge_node
 from rover_bridge.node import BridgeNode
 from rover_bridge.node_insets import InsetNode
 from rover_common.errors import RoverError
+from rover_common.ros.runner import start_errors
 
 
 def test_the_topics_are_those_of_the_readme(ros):
@@ -41,16 +39,8 @@ def test_the_node_has_the_bridges_namespace_and_topics(domain_id):
         context.try_shutdown()
 
 
-def test_a_wrong_truth_is_one_clear_line(ros, monkeypatch):
+def test_a_wrong_truth_is_one_clear_line(ros):
     with pytest.raises(RoverError, match=r"nothing\.png: No such file or directory"):
         ros.add(BridgeNode, port=0, truth="nothing.png")
-
-    def run_node(*_: Any, **__: Any) -> None:
-        BridgeNode(
-            context=ros.context,
-            parameter_overrides=[Parameter("truth", value=str(ROOT / "README.md"))],
-        )
-
-    monkeypatch.setattr(bridge_node, "run_node", run_node)
-    with pytest.raises(SystemExit, match=r"^bridge_node: .*README.md: not an image$"):
-        bridge_node.main()
+    with pytest.raises(SystemExit, match=r"README.md: not an image$"), start_errors():
+        ros.add(BridgeNode, port=0, truth=str(ROOT / "README.md"))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from rover_common.camera import ROVER_CAMERA
+from rover_common.errors import RoverError
 
 SIZE = f"{ROVER_CAMERA.width} x {ROVER_CAMERA.height}"
 
@@ -39,7 +40,7 @@ class Skip:
     detail: str  # what was found
 
 
-class UnusableError(Exception):
+class UnusableError(RoverError):
     """A row cannot be used; becomes a Skip."""
 
     def __init__(self, cause: Cause, detail: str) -> None:
