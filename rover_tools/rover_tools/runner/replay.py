@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from rover_simulator.recordings.replay import Playback, play
 from rover_simulator.wire.unity_client import UnityClient
 from rover_tools.evaluation.results import Result, Truth, percentile_ms, score, write_results
 from rover_tools.progress import Progress
-from rover_tools.runner.run import Run
+from rover_tools.runner.run import Run, running_graph
 
 MAP_SECONDS = 5.0  # [s] for the map with the last frame to arrive
 
@@ -23,8 +24,20 @@ OVERRIDES: dict[str, dict[str, object]] = {
 }
 
 
-def replay(recording: Recording, run: Run, truth: Truth, in_flight: int, title: str) -> Result:
-    """Play the recording into the running graph, score what it published, write the results."""
+def replay_log(
+    recording: Recording,
+    folder: Path,
+    params: Path | None,
+    truth: Truth,
+    in_flight: int,
+    title: str,
+) -> Result:
+    """Play the recording into a graph, score what it published, write the results."""
+    with running_graph(folder, OVERRIDES, params) as run:
+        return _replay(recording, run, truth, in_flight, title)
+
+
+def _replay(recording: Recording, run: Run, truth: Truth, in_flight: int, title: str) -> Result:
     playback = _play_with_progress(recording, run, in_flight)
     track = np.array([(frame.pose.x, frame.pose.y) for frame in recording.frames])
     last_stamp = round(playback.last_time * 1e9)

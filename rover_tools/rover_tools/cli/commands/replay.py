@@ -64,9 +64,8 @@ def command(
     from rover_tools.evaluation.results import Truth, summary
     from rover_tools.runner.recorded_run import recorded_run
     from rover_tools.runner.recording import load_recording
-    from rover_tools.runner.replay import OVERRIDES, replay
+    from rover_tools.runner.replay import replay_log
     from rover_tools.runner.replay_recording import replay_recording
-    from rover_tools.runner.run import running_graph
 
     known = Truth.load(truth, samples)
     if params is not None:
@@ -78,7 +77,6 @@ def command(
     else:
         log = load_log(path, yaw_convention)
         folder = result_folder("replay", out)
-        with running_graph(folder, OVERRIDES, params) as run:
-            result = replay(log, run, known, in_flight, str(path))
+        result = replay_log(log, folder, params, known, in_flight, str(path))
     print_result(result, as_json, summary(result))
     note(f"replayed {result['frames']} frames; results in {folder}")
