@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import itertools
+import time
 from dataclasses import replace
 from pathlib import Path
 
 from rover_simulator.recordings.recording import Recording
-from rover_simulator.recordings.replay import play
+from rover_simulator.recordings.replay import play, telemetry_of, wait_for_answer
 from rover_simulator.wire.unity_client import UnityClient
 from rover_tools.evaluation.recordings import example_recording
 from rover_tools.evaluation.results import Result, percentile_ms, summary
@@ -16,14 +17,16 @@ from rover_tools.runner.replay import OVERRIDES
 from rover_tools.runner.run import Run, running_graph
 
 WARM_UP = 50  # frames not counted: first use of libraries, caches, buffers
+BLOCK = 100  # frames in turn with and without insets, so that what the machine does meets both
 
 
-def bench(frames: int, chosen: Path | None, out: Path | None, as_json: bool) -> None:
+def bench(frames: int, chosen: Path | None, insets: bool, out: Path | None, as_json: bool) -> None:
     """Measure on the chosen recording, or on an example; write and print the result."""
     folder = result_folder("bench-graph", out)
     recording, source = example_recording(chosen, folder)
     with running_graph(folder, OVERRIDES) as run:
-        result = {"source": source, **measure(run, recording, frames)}
+        method = measure_insets if insets else measure
+        result = {"source": source, **method(run, recording, frames)}
     write_result(folder, result)
     print_result(result, as_json, summary(result))
     note(f"one telemetry in flight, {WARM_UP} frames of warm-up not counted; results in {folder}")
@@ -46,6 +49,36 @@ def measure(run: Run, recording: Recording, count: int) -> Result:
         "latency_ms_p99": percentile_ms(latencies, 99),
         "latency_ms_max": percentile_ms(latencies, 100),
         "frames_per_second": round(len(latencies) / sum(latencies), 1),
+        "counts": run.watch.counts(),
+    }
+
+
+def measure_insets(run: Run, recording: Recording, count: int) -> Result:
+    """The same of a client that shows insets and shows none, block by block in turn."""
+    client = UnityClient(run.host, run.port)
+    client.connect(timeout=10.0)
+    latencies: dict[str, list[float]] = {"0": [], "1": []}  # [s] by `shows_insets`
+    try:
+        for index, frame in enumerate(_repeated(recording, WARM_UP + 2 * count).frames):
+            shows = str((index - WARM_UP) // BLOCK % 2)
+            telemetry = telemetry_of(frame, frame.image_path.read_bytes())
+            start = time.perf_counter()
+            client.send_telemetry(telemetry | {"shows_insets": shows})
+            wait_for_answer(client)
+            if index >= WARM_UP:
+                latencies[shows].append(time.perf_counter() - start)
+    finally:
+        client.close()
+    run.processes.check()
+    hidden, shown = tuple(latencies["0"]), tuple(latencies["1"])  # [s]
+    without, with_insets = percentile_ms(hidden, 50), percentile_ms(shown, 50)
+    return {
+        "frames": len(shown),
+        "latency_ms_p50": without,
+        "latency_ms_p99": percentile_ms(hidden, 99),
+        "latency_insets_ms_p50": with_insets,
+        "latency_insets_ms_p99": percentile_ms(shown, 99),
+        "insets_ms": round(with_insets - without, 2),
         "counts": run.watch.counts(),
     }
 

@@ -17,9 +17,13 @@ from rover_tools.cli.options import json_option, out_option
 @click.option("--recording", type=FOLDER, metavar="DIR",
               help="Frames to use.  [default: a recorded run where there is one, else frames of "
               "the embedded simulator]")  # fmt: skip
+@click.option("--insets", is_flag=True,
+              help="Compare a client that shows insets with one that does not.")  # fmt: skip
 @out_option
 @json_option
-def command(frames: int, recording: Path | None, out: Path | None, as_json: bool) -> None:
+def command(
+    frames: int, recording: Path | None, insets: bool, out: Path | None, as_json: bool
+) -> None:
     """Measure telemetry to command through the three nodes.
 
     The nodes run as processes, connected by the wire and DDS; one telemetry at a time.
@@ -28,7 +32,8 @@ def command(frames: int, recording: Path | None, out: Path | None, as_json: bool
     Examples:
       ./rover bench graph
       ./rover bench graph --frames 200 --json
+      ./rover bench graph --insets
     """
     from rover_tools.benchmarks.graph import bench
 
-    bench(frames, recording, out, as_json)
+    bench(frames, recording, insets, out, as_json)
