@@ -69,6 +69,12 @@ def test_a_maze_without_sources_has_none_to_find():
 # Launches
 
 
+def beside(aside: float, distance: float) -> Pose:
+    """Facing the source at (0, 2), so far [m] from it and so many degrees off its normal."""
+    angle = math.radians(aside)
+    return Pose(distance * math.cos(angle), 2.0 + distance * math.sin(angle), angle + math.pi)
+
+
 def test_each_source_is_served_from_where_it_belongs():
     score = score_launches(MAZE, (SERVED, ON_RAMP), 0.30)
     assert (score.delivered, score.wrong, score.on_ramp) == (2, 0, True)
@@ -80,8 +86,8 @@ def test_each_source_is_served_from_where_it_belongs():
 @pytest.mark.parametrize(
     "bad",
     [
-        launch(Pose(0.30, 2.13, math.pi)),  # beside its stand-off pose
-        launch(Pose(0.43, 2.0, math.pi)),  # too far from the wall
+        launch(beside(50.0, 0.30)),  # too far off the wall's normal
+        launch(Pose(0.48, 2.0, math.pi)),  # too far from the wall
         launch(Pose(-0.30, 2.0, 0.0)),  # on the wrong side of the wall
         launch(Pose(0.30, 2.0, math.pi - math.radians(11.0))),  # facing aside
         launch(Pose(0.30, 2.0, math.pi), speed=0.02),  # driving
@@ -94,11 +100,17 @@ def test_a_launch_that_does_not_serve_is_wrong(bad):
 
 
 def test_a_launch_within_the_tolerances_serves():
-    near = launch(Pose(0.41, 2.0, math.pi + math.radians(9.0)))
+    near = launch(Pose(0.46, 2.0, math.pi + math.radians(9.0)))
     assert score_launches(MAZE, (near,), 0.30).delivered == 1
     assert score_launches(MAZE, (near,), 0.30).error_max == pytest.approx(0.11)
     assert math.degrees(score_launches(MAZE, (near,), 0.30).angle_max) == pytest.approx(9.0)
     assert score_launches(MAZE, (near,), 0.60).delivered == 0  # where it is to stand is a parameter
+
+
+@pytest.mark.parametrize(("aside", "distance"), [(20.0, 0.30), (-20.0, 0.35), (0.0, 0.35)])
+def test_a_launch_from_another_stand_off_pose_serves(aside, distance):
+    score = score_launches(MAZE, (launch(beside(aside, distance)),), 0.30)
+    assert (score.delivered, score.error_max) == (1, pytest.approx(0.0, abs=1e-9))
 
 
 def test_a_second_launch_for_a_source_is_wrong():

@@ -22,7 +22,9 @@ from rover_tools.evaluation.heat_ticks import HeatTicks
 from rover_tools.evaluation.scoring import score_places
 
 FOUND = 0.15  # [m] from a true source
-AT_STAND_OFF = 0.12  # [m] from the stand-off pose
+AT_STAND_OFF = 0.12  # [m] from a stand-off pose
+# Where the first one cannot be reached, another one is: farther from the wall, or off its normal.
+FARTHER, OFF_NORMAL = 0.05, math.radians(20.0)  # [m], [rad]
 FACING = math.radians(10.0)  # off the source
 STANDS, TURNS = 0.01, 0.03  # [m/s], [rad/s] of a robot that stands
 ON_WALL = 0.05  # [m] from a wall that is right on the map
@@ -174,7 +176,9 @@ def _angle(launch: Launch, source: HeatSource) -> float:
 
 
 def _aside(launch: Launch, source: HeatSource, stand_off: float) -> float:
-    """[m] From the stand-off pose, which lies on the source's warm side."""
-    x = source.x + stand_off * math.cos(source.normal)
-    y = source.y + stand_off * math.sin(source.normal)
-    return math.dist((launch.pose.x, launch.pose.y), (x, y))
+    """[m] From the nearest stand-off pose; they lie on the source's warm side."""
+    angles = source.normal + np.array([0.0, OFF_NORMAL, -OFF_NORMAL])
+    distances = np.array([stand_off, stand_off + FARTHER])[:, None]
+    x = source.x + distances * np.cos(angles)
+    y = source.y + distances * np.sin(angles)
+    return float(np.hypot(launch.pose.x - x, launch.pose.y - y).min())

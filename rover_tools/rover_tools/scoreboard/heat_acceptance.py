@@ -63,7 +63,7 @@ CRITERIA = (
     _share("sources found within 0.15 m", "sources found", 98.0),
     _spread("farthest source from its report [m]", "source error [m]", "-"),
     _share("no false source", "none false", 97.5),
-    _share("each payload at its stand-off pose, facing, standing", "launches right", 95.0),
+    _share("each payload at a stand-off pose, facing, standing", "launches right", 95.0),
     _spread("farthest from a stand-off pose [m]", "launch error [m]", "-"),
     _spread("widest off the source [deg]", "launch angle [deg]", "-"),
     _share("no launch while moving", "launches standing", 100.0),
