@@ -186,7 +186,7 @@ def criteria_missed(*entries: Entry) -> set[str]:
         ({"sources_found": 1}, {"all sources found, each within 0.15 m",
                                 "sources found within 0.15 m"}),
         ({"sources_false": 1}, {"no false source"}),
-        ({"launches_wrong": 1}, {"each payload at its stand-off pose, facing, standing"}),
+        ({"launches_wrong": 1}, {"each payload at a stand-off pose, facing, standing"}),
         ({"launches_moving": 1}, {"no launch while moving"}),
         ({"early_ascent": 0.16}, {"no early ascent: 0.15 m beyond the foot at most"}),
         ({"stop_seconds_max": 0.35}, {"stands within 0.3 s of each interrupt"}),
