@@ -47,7 +47,7 @@ def bridge() -> Iterator[int]:
     thread = threading.Thread(target=spin)
     thread.start()
     while not (node.count_subscribers(topics.COMMAND) and decider.count_publishers(topics.STATUS)):
-        time.sleep(0.05)
+        ended.wait(0.05)
     try:
         yield node.port
     finally:
