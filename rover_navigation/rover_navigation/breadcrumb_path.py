@@ -80,9 +80,10 @@ def _links(
     short = np.flatnonzero(~keep)
     starts, ends = points[pairs[short, 0]], points[pairs[short, 1]]
     keep[short] = _clear(starts, ends, costmap, scale.shortcut_clearance)
-    jumps = np.divmod(np.setdiff1d(driven, _key(pairs, len(points))), len(points))
     first, second = pairs[keep].T
-    return np.append(first, jumps[0]), np.append(second, jumps[1])
+    begin, end = np.divmod(driven, len(points))
+    jump = np.linalg.norm(points[begin] - points[end], axis=1) > scale.breadcrumb_shortcut
+    return np.append(first, begin[jump]), np.append(second, end[jump])
 
 
 def _key(pairs: NDArray[np.intp], count: int) -> NDArray[np.intp]:
