@@ -126,6 +126,24 @@ def test_a_silent_thermal_sensor_is_dead_after_3_s_and_the_other_goes_on(before)
     assert before.state is State.EXPLORING
 
 
+def test_heat_at_the_images_border_leaves_the_walls_in_it_open():
+    """The patch is cut, so that it gives no fix; what is left of the image examines nothing."""
+    driven = exploring()
+    coverage = sensing_of(driven).coverage
+    faces = np.stack([np.linspace(1.8, 2.2, 9), np.full(9, 3.97)], axis=1)
+    driven.move_to(replace(BEFORE, yaw=math.pi / 2 - math.radians(26.0)), thermal=())
+    driven.ticks(0.5, thermal=())
+    looking(driven, 1.0)
+    assert sensing_of(driven).is_warm
+    assert sensing_of(driven).fixes == []
+    assert coverage.examined_from(BEFORE.x, BEFORE.y, faces) == 0.0
+    driven.move_to(BEFORE, thermal=())
+    driven.ticks(0.5, thermal=())
+    looking(driven, 1.0)
+    assert len(sensing_of(driven).fixes) > 5
+    assert coverage.examined_from(BEFORE.x, BEFORE.y, faces) == 1.0
+
+
 def test_a_turning_robot_makes_no_fix(before):
     for _ in range(20):
         before.tick(turn=0.35, **warm_frames(before))

@@ -30,10 +30,10 @@ def driver(seed: int = 1) -> GoalDriver:
 
 
 def drive(
-    grid: GridMap, start: Pose, goal: Pose, seconds: float = 40.0
+    grid: GridMap, start: Pose, goal: Pose, seconds: float = 40.0, seed: int = 1
 ) -> tuple[GoalDriver, list[Pose], list[Twist]]:
     """With wheels that do at once what they are told."""
-    driving, pose, twist = driver(), start, Twist()
+    driving, pose, twist = driver(seed), start, Twist()
     place = ground(grid)
     poses, twists = [pose], [twist]
     for index in range(round(seconds / PERIOD)):
@@ -60,6 +60,15 @@ def test_it_drives_through_a_gap_of_0_45_m_and_ends_at_the_goals_heading(yaw):
     assert least > BURGER.body_radius
     assert all(abs(t.linear) <= BURGER.cruise_speed + 1e-6 for t in twists)
     assert all(abs(t.angular) <= BURGER.cruise_turn + 1e-6 for t in twists)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_it_drives_up_to_a_goal_near_a_wall(seed):
+    end = Pose(2.775, 1.025, math.pi / 2)
+    driving, poses, _ = drive(hall(), Pose(0.5, 1.025, 0.0), end, seed=seed)
+    assert driving.phase is Phase.REACHED
+    assert distance_between(poses[-1], end) < 0.05
+    assert max(pose.x for pose in poses) < 2.95 - BURGER.body_radius
 
 
 def test_it_turns_in_place_to_a_path_that_begins_behind_it():

@@ -126,13 +126,19 @@ class ThermalSensing:
             ))  # fmt: skip
 
     def _look(self, sensor: _Sensor, columns: Columns, view: View) -> None:
-        """A frame that is fit: what it examines, and the fix when it is the second that is warm."""
+        """A frame that is fit: the fix when it is the second that is warm, and what it examines.
+
+        A frame that is warm without telling where examines nothing: the walls in it stay open, and
+        the robot comes to look at them from another place.
+        """
         self.views.append((view, columns))
-        self.coverage.update(view, sensor.frames)
+        fix = None
         if sensor.patch is not None and sensor.warm_in_row >= 2:
             fix = make_fix(sensor.patch, view, self._config)
-            if fix is not None and (fix.sharp or self._config.heat_bearing == "axis"):
-                self.fixes.append(fix)
+        if fix is not None and (fix.sharp or self._config.heat_bearing == "axis"):
+            self.fixes.append(fix)
+        if sensor.patch is None or fix is not None:
+            self.coverage.update(view, sensor.frames)
         if len(self.fixes) > MOST_FIXES:
             half = MOST_FIXES // 2
             self.fixes = self.fixes[:half:2] + self.fixes[half:]

@@ -38,6 +38,7 @@ class Scene:
     path: NDArray[np.float32]  # (n, 2) [m] map frame, what of it lies just ahead; at least 2
     radius: float  # [m] of the body
     inflation: float  # [m] from obstacles up to which ground costs more
+    caution: float = 1.0  # share of that cost which counts
 
 
 def cost_of(
@@ -66,7 +67,7 @@ def _clearance_cost(paths: Trajectories, scene: Scene) -> NDArray[np.float32]:
     near = np.float32(scene.inflation) - clearance
     np.maximum(near, 0, out=near)
     near *= np.float32(1.0 / (scene.inflation - scene.radius))
-    cost = np.float32(CLEARANCE) * np.square(near).mean(axis=0)
+    cost = np.float32(CLEARANCE * scene.caution) * np.square(near).mean(axis=0)
     hit = clearance < np.float32(scene.radius)
     return cost + np.float32(COLLISION) * hit.mean(axis=0, dtype=np.float32)
 

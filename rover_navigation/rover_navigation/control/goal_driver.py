@@ -20,6 +20,9 @@ AIM = 0.2  # [m] along the path to the point that decides on it
 AHEAD = 0.6  # [m] of the path that count: what is reached in the controller's horizon, and more
 TURN_GAIN, TURN_LEAST = 2.5, 0.15  # [1/s], [rad/s] of turns in place
 CLOSE_ENOUGH = 0.4  # of the tolerance, at which it stops to come nearer
+# [m] from the goal, within which nearness to walls counts less and less: what makes a robot pass
+# them at a distance would keep it away from a goal between them
+NEAR_GOAL = 0.5
 CLOSER = 0.003  # [m] to come nearer by, lest it counts as near as it gets
 
 
@@ -69,7 +72,8 @@ class GoalDriver:
         if self.phase is Phase.REACHED or len(ahead) < 2:
             return Twist()
         path_ahead = ahead.astype(np.float32)
-        scene = Scene(costmap, path_ahead, self._model.body_radius, self._inflation)
+        caution = min(1.0, self.distance_left / NEAR_GOAL)
+        scene = Scene(costmap, path_ahead, self._model.body_radius, self._inflation, caution)
         return self._mppi.twist(pose, last, scene)
 
     def _choose_phase(
