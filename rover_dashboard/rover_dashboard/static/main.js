@@ -14,6 +14,7 @@ const pictures = new Pictures();
 const plots = new Plots();
 const timeline = new Timeline();
 const link = document.getElementById("link");
+const TITLES = { rover: "Rover", heat: "Heat mission" };
 let simulator = null;
 let connected = "connecting";
 let recorded = false; // a recording is shown, not the graph
@@ -30,6 +31,7 @@ const parts = {
     if (!data) return;
     robot = data;
     document.documentElement.dataset.robot = robot;
+    document.title = TITLES[robot];
     plots.choose(robot);
     showLink();
   },
