@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -26,7 +27,8 @@ from rover_tools.report.heat_steps import StepWatch
 from rover_tools.scoreboard.heat_job import HeatJob
 from rover_tools.scoreboard.missions import CompletedMission
 
-HEAT_ROW_KEYS = (*HEAT_RESULT_KEYS, "times_real_time", "tick_ms_p99")
+COSTS = ("times_real_time", "ticks", "tick_ms_p99", "tick_ms_max", "memory_mb")
+HEAT_ROW_KEYS = (*HEAT_RESULT_KEYS, *COSTS)
 Watch = Callable[[HeatLoop, HeatStep], object]
 
 
@@ -67,7 +69,7 @@ def failed_heat_row(job: HeatJob, error: BaseException) -> Result:
     """The row of a mission that raised."""
     why = f"{type(error).__name__}: {error}"
     row = failed_heat_result(job.world_name, job.seed, job.setup.label, why)
-    return row | {"times_real_time": None, "tick_ms_p99": None}
+    return row | dict.fromkeys(COSTS)
 
 
 def _run(job: HeatJob, watch: StepWatch, on_step: Watch) -> HeatLog:
@@ -84,7 +86,11 @@ def _run(job: HeatJob, watch: StepWatch, on_step: Watch) -> HeatLog:
     seconds = time.monotonic() - start
     result = heat_mission_result(maze, job.seed, job.setup, run, seconds)
     result["times_real_time"] = round(run.time / cpu, 1)
+    result["ticks"] = len(ticks)
     result["tick_ms_p99"] = round(1e3 * float(np.percentile(ticks, 99)), 2)
+    result["tick_ms_max"] = round(1e3 * max(ticks), 2)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # [KiB] of this process so far
+    result["memory_mb"] = round(peak / 1024.0, 1)
     watch.end(run.grid, run.overlay)
     return watch.log.log(
         f"{maze.name}, {job.setup.label}", run.grid, watch.with_faces(run.overlay), result, maze,
