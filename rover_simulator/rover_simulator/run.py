@@ -81,7 +81,8 @@ def simulate(
     """Drive in the world as the server commands.
 
     rate: times real time, None as fast as the server answers; fps: frames per simulated second;
-    time_limit, dead_man [s]: of simulated time, the latter without a command, 0 for never; insets: folder to save into what the screen would show.
+    time_limit [s]: of simulated time; dead_man [s]: of it without a command until the rover brakes,
+    0 for never; insets: folder to save into what the screen would show.
     """
     stop = Stop()
     frame_steps = frame_steps_of(fps)
