@@ -31,7 +31,7 @@ from burger_simulator.config import BurgerConfig
 from burger_simulator.lockstep import Lockstep, Settling
 from burger_simulator.simulation import START, TICK, BurgerSimulation
 from burger_simulator.truth_file import TruthFile
-from rover_common import topics
+from rover_common import nodes, topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
@@ -43,6 +43,7 @@ from rover_common.sensor_batches import Tick
 from rover_common.sensor_types import SensorBatch, Twist
 
 DONE = "done"  # what the launcher reports
+SILENT = 0.7  # [s] of wall time without a report, after which a node of the team is silent
 LOG_PERIOD = 5.0  # [s] between two lines about the same
 SETTLED = 0.5  # [s] of wall time without another subscriber: all have found each other by then
 LOOK, LOOK_FAST = 0.005, 0.0005  # [s] of wall time between two looks whether a tick is due
@@ -109,6 +110,7 @@ class BurgerNode(Node):
         self.create_service(Trigger, "~/pause", lambda _, r: self._pause(True, r))
         self.create_service(Trigger, "~/resume", lambda _, r: self._pause(False, r))
         self._diagnostics = NodeDiagnostics(self, self._peers())
+        self._diagnostics.join(nodes.HEAT_TEAM, SILENT)
 
     def _peers(self) -> dict[str, Callable[[], bool]]:
         """Who is needed; in lockstep nothing begins without them."""
