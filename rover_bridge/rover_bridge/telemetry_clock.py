@@ -102,11 +102,12 @@ class TelemetryClock:
         return self._confirmations >= CONFIRMATIONS
 
     def _continue(self, reading: _Reading) -> None:
-        """Go on with it: within the run where it is ahead, else as it is."""
+        """Go on with it: where the time was, if it is ahead of that, else as it is."""
         last = self._last
         assert last is not None
-        ahead = reading.simulated == last.simulated and reading.time > last.time
-        self._shift = self._shift + self._jumped_to - last.time if ahead else 0.0
+        ahead = self._jumped_to - (last.time - self._shift)
+        within = reading.simulated == last.simulated and ahead > JUMPED_AHEAD
+        self._shift = ahead if within else 0.0
 
     def _stand(self, reading: _Reading, last: _Reading) -> None:
         """Another telemetry of the last instant; raises ClockStandsError."""

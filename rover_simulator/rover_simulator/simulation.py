@@ -86,8 +86,8 @@ class Simulation:
     def advance(self) -> None:
         """One rendered frame: its physics, then its image."""
         if not self._held:
-            moving = self._vehicle.speed != 0.0
-            self._controls = self._dead_man.controls(self.time, self._controls, moving)
+            moving, frame = self._vehicle.speed != 0.0, self._frame_steps * STEP
+            self._controls = self._dead_man.controls(self.time, frame, self._controls, moving)
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)

@@ -24,12 +24,16 @@ class DeadMan:
         self._heard = time
         self._braking = False
 
-    def controls(self, time: float, held: Controls, moving: bool) -> Controls:
-        """What to hold instead of the last command, at the beginning of a frame."""
+    def controls(self, time: float, frame: float, held: Controls, moving: bool) -> Controls:
+        """What to hold instead of the last command at this time [s], as a frame [s] begins.
+
+        It brakes with the last frame that begins in time, and never in the first one.
+        """
         if self._braking:
             return STOP
-        silent = self._heard is not None and time - self._heard >= self.seconds
-        if not silent or not (moving or _drives(held)):
+        silence = 0.0 if self._heard is None else time - self._heard
+        due = silence > 0.0 and silence + frame > self.seconds
+        if not due or not (moving or _drives(held)):
             return held
         self._braking = True
         self.stops += 1
