@@ -3,7 +3,7 @@
 Run by hand, on an idle machine: the three nodes as processes, the embedded simulator in real time,
 and one fault after the other while the rover drives.
 
-./rover shell -c 'PYTHONPATH=tests:$PYTHONPATH python tests/graph/brake_times.py --faults 200'
+./rover shell -c 'PYTHONPATH=tests:$PYTHONPATH python tests/brake_times.py --faults 200'
 """
 
 from __future__ import annotations
