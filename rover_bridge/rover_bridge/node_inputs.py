@@ -41,7 +41,8 @@ class BridgeInputs:
 
     def expect(self, now: float, connected: bool, owes: bool) -> None:
         """A simulator sends when it is answered (owes), and is commanded when it sends."""
-        if not (connected and owes):
+        refused = not connected and self.monitor.dropping(TELEMETRY, now)
+        if not (connected and owes) and not refused:
             self.monitor.hold(TELEMETRY, now)
         if not connected or self.monitor.silent(TELEMETRY, now):
             self.monitor.hold(topics.COMMAND, now)

@@ -112,6 +112,12 @@ class InputMonitor:
         waiting, pause = self._records[name].waiting, self._pauses[name]
         return waiting is not None and now - waiting - pause > self._limits.input_warn_age
 
+    def dropping(self, name: str, now: float) -> bool:
+        """Whether messages were dropped lately."""
+        drops = self._records[name].drops
+        _forget(drops, now)
+        return bool(drops)
+
     def reports(self, now: float) -> list[InputReport]:
         """All inputs in their order."""
         self._expect(now)
