@@ -5,6 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 
+class Settling:
+    """Whether something has stayed the same for a while; once it has, it stays settled."""
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds = seconds
+        self._since: tuple[object, float] | None = None
+        self.done = False
+
+    def settled(self, observed: object, now: float) -> bool:
+        """observed: what is there at `now` [s] of any clock that does not fall back."""
+        if self._since is None or self._since[0] != observed:
+            self._since = observed, now
+        self.done = self.done or now - self._since[1] >= self._seconds
+        return self.done
+
+
 class Lockstep:
     """Times are [s] of any clock that does not fall back, stamps [ns]."""
 

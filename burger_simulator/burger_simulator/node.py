@@ -28,10 +28,10 @@ from tf2_msgs.msg import TFMessage
 
 from burger_simulator import conversions
 from burger_simulator.config import BurgerConfig
-from burger_simulator.lockstep import Lockstep
+from burger_simulator.lockstep import Lockstep, Settling
 from burger_simulator.simulation import START, TICK, BurgerSimulation
 from burger_simulator.truth_file import TruthFile
-from rover_common import topics
+from rover_common import nodes, topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
@@ -43,8 +43,9 @@ from rover_common.sensor_batches import Tick
 from rover_common.sensor_types import SensorBatch, Twist
 
 DONE = "done"  # what the launcher reports
+SILENT = 0.7  # [s] of wall time without a report, after which a node of the team is silent
 LOG_PERIOD = 5.0  # [s] between two lines about the same
-SETTLED = 0.5  # [s] of wall time for peers to have found this node as it has found them
+SETTLED = 0.5  # [s] of wall time without another subscriber: all have found each other by then
 LOOK, LOOK_FAST = 0.005, 0.0005  # [s] of wall time between two looks whether a tick is due
 DRIVER, MISSION, LAUNCH = "driver", "mission", "flywheel"
 
@@ -68,7 +69,7 @@ class BurgerNode(Node):
         peers = {DRIVER, MISSION} if self._config.lockstep_with_mission else {DRIVER}
         self._lockstep = Lockstep(peers, self._config.answer_deadline)
         self._make_endpoints()
-        self._connected_since: float | None = None
+        self._settling = Settling(SETTLED)
         fast = self._config.rate == 0.0 and not self._config.lockstep
         self._timer = self.create_timer(
             LOOK_FAST if fast else LOOK,
@@ -109,20 +110,27 @@ class BurgerNode(Node):
         self.create_service(Trigger, "~/pause", lambda _, r: self._pause(True, r))
         self.create_service(Trigger, "~/resume", lambda _, r: self._pause(False, r))
         self._diagnostics = NodeDiagnostics(self, self._peers())
+        self._diagnostics.join(nodes.HEAT_TEAM, SILENT)
 
     def _peers(self) -> dict[str, Callable[[], bool]]:
         """Who is needed; in lockstep nothing begins without them."""
-        peers = {
-            DRIVER: lambda: (
-                self._driver.get_publisher_count() > 0 and self._scan.get_subscription_count() > 0
-            )
-        }
-        if self._config.lockstep_with_mission:
-            peers[MISSION] = lambda: (
-                self._mission.get_publisher_count() > 0
-                and self._sensor_tick.get_subscription_count() > 1
-            )
-        return peers
+
+        def drives() -> bool:
+            heard = self._heard()[: 4 if self._config.lockstep else 1]
+            return self._driver.get_publisher_count() > 0 and min(heard) > 0
+
+        def decides() -> bool:
+            heard = self._heard()
+            others = self._mission.get_publisher_count() > 0 and min(heard[4:]) > 0
+            return others and min(heard[:4]) > 1
+
+        return {DRIVER: drives} | ({MISSION: decides} if self._config.lockstep_with_mission else {})
+
+    def _heard(self) -> tuple[int, ...]:
+        """How many listen to what driver and mission need, and to what the mission alone does."""
+        of_both = (self._scan, self._imu, self._odometry, self._sensor_tick)
+        publishers = (*of_both, *self._thermal, self._launched)
+        return tuple(publisher.get_subscription_count() for publisher in publishers)
 
     def _proceed(self) -> None:
         """Make the next tick, when it is due and the one before is answered."""
@@ -142,14 +150,12 @@ class BurgerNode(Node):
 
     def _may_go_on(self, now: float) -> bool:
         """In lockstep: all have been here for a while, and have answered or let it expire."""
-        if self._connected_since is None:
+        if not self._settling.done:
             missing = [name for name, connected in self._peers().items() if not connected()]
             if missing:
                 self._warn("peers", f"waiting for {', '.join(missing)}")
+            if missing or not self._settling.settled(self._heard(), now):
                 return False
-            self._connected_since = now
-        if now - self._connected_since < SETTLED:
-            return False
         missing = self._lockstep.missing
         if missing and not self._lockstep.expired(now):
             return False

@@ -41,7 +41,7 @@ class BridgeConfig:
         maximum=86400.0,
     )
     answer_deadline: float = parameter(
-        0.5,
+        0.25,
         "[s] of wall time after which a telemetry without a decision is answered with the brake",
         minimum=0.01,
         maximum=60.0,

@@ -43,6 +43,24 @@ class OutOfRangeError(TelemetryError):
     counter = "telemetry_out_of_range"
 
 
+class ClockAbsentError(TelemetryError):
+    """There is no sim_time, where it is needed or was before."""
+
+    counter = "telemetry_clock_absent"
+
+
+class ClockJumpedError(TelemetryError):
+    """The clock is far from where it was, or has come where none was."""
+
+    counter = "telemetry_clock_jumped"
+
+
+class ClockStandsError(TelemetryError):
+    """The clock does not advance."""
+
+    counter = "telemetry_clock_stands"
+
+
 class Base64Error(TelemetryError):
     """The image is not base64."""
 

@@ -2,8 +2,9 @@
 
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
-carries sim_time) and /diagnostics. Subscribes cmd_drive. Parameters: BridgeConfig. Counters:
-counters.Counter and errors. Answers may carry pictures, which node_insets draws.
+carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the health of the
+rover. Parameters: BridgeConfig and InputLimits. Counters: counters.Counter and errors. Answers may
+carry pictures, which node_insets draws.
 """
 
 from __future__ import annotations
@@ -19,16 +20,19 @@ from rover_interfaces.msg import DriveCommand
 from std_msgs.msg import String
 
 from rover_bridge.active_client import ActiveClient
-from rover_bridge.codec import decode_telemetry, encode_drive, uses_decimal_comma
+from rover_bridge.answer_sender import AnswerSender
+from rover_bridge.codec import decode_telemetry
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
 from rover_bridge.inbox import Inbox
+from rover_bridge.node_inputs import BridgeInputs
 from rover_bridge.node_insets import InsetDrawer
 from rover_bridge.node_publishers import TelemetryPublishers
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
 from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import SocketServer
+from rover_bridge.telemetry_clock import TelemetryClock
 from rover_bridge.transport import (
     Connected,
     ConnectionRefused,
@@ -38,17 +42,19 @@ from rover_bridge.transport import (
     TelemetryReceived,
     Transport,
 )
-from rover_common import topics
+from rover_bridge.trouble_log import TroubleLog
+from rover_common import nodes, topics
 from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
-from rover_common.ros.conversions import NANOSECONDS, command_of
+from rover_common.ros.conversions import command_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.types import SAFE_COMMAND, Telemetry
+from rover_common.types import SAFE_COMMAND
 
-LOG_PERIOD = 5.0  # [s] between two lines about the same counter
-CHECKS_PER_DEADLINE = 4
+# From a telemetry to its brake at most the deadline and a check of it pass. With a frame of the
+# simulator before and one after, that is less than 0.5 s of 10 frames a second.
+CHECKS_PER_DEADLINE = 10
 EVENTS_PER_TURN = 4  # taken from the inbox before commands and deadlines have their turn
 
 
@@ -69,16 +75,13 @@ class BridgeNode(Node):
         self._active = ActiveClient()
         self._requests = PendingRequests(config.answer_deadline)
         self._runs = RunTracker()
-        self._comma_clients: set[str] = set()
-        self._warned: dict[str, float] = {}  # [s] wall time of the last line per counter
+        simulated = bool(self.get_parameter("use_sim_time").value)
+        self._telemetry_clock = TelemetryClock(time.time(), time.monotonic(), simulated)
+        self._log = TroubleLog()
         self._inbox = Inbox()
         self._arrival = self.create_guard_condition(self._on_arrivals)
         self._server: Transport = SocketServer(
-            config.host,
-            config.port,
-            self._on_server_event,
-            config.limits(),
-            config.access(),
+            config.host, config.port, self._on_server_event, config.limits(), config.access()
         )
         self.port = self._server.port
         self._make_endpoints()
@@ -100,12 +103,18 @@ class BridgeNode(Node):
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
-        self._topics = TelemetryPublishers(self, self._now())
+        self._topics = TelemetryPublishers(self, int(self.get_clock().now().nanoseconds))
         self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
         command = self.create_subscription(
             DriveCommand, topics.COMMAND, self._on_command, qos.FRAME
         )
-        self._diagnostics = NodeDiagnostics(self, self._topics.peers(command))
+        self._inputs = BridgeInputs(self, command)
+        self._diagnostics = NodeDiagnostics(
+            self, self._topics.peers(command), self._inputs.monitor, self._judge
+        )
+        counts = self._diagnostics.counts
+        self._answers = AnswerSender(self._server, self._insets.take, counts)
+        self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
 
     def _on_server_event(self, event: ServerEvent) -> None:
         """Called in the server's thread."""
@@ -138,16 +147,16 @@ class BridgeNode(Node):
             self._on_disconnected(event.client)
 
     def _on_disconnected(self, client: str) -> None:
-        self._comma_clients.discard(client)
+        self._answers.forget(client)
         if self._active.disconnect(client):
             self.get_logger().info(f"client {client} disconnected")
+            self._diagnostics.set_warning("simulator", "the simulator has left")
             self._insets.leave()
             self._requests.clear()
             self._publish_state()
 
     def _on_telemetry(self, event: TelemetryReceived) -> None:
-        if uses_decimal_comma(event.wire):
-            self._comma_clients.add(event.client)
+        self._answers.read(event.client, event.wire)
         client, now = event.client, time.monotonic()
         if not self._active.accepts(client, now, owes=self._requests.empty):
             self._refuse(client, Counter.SECOND_CLIENT, "another client is active: braking")
@@ -157,13 +166,17 @@ class BridgeNode(Node):
             return
         try:
             telemetry = decode_telemetry(event.wire)
+            anew = client != self._active.name
+            clock_time = self._telemetry_clock.read(telemetry.sim_time, now, anew)
         except TelemetryError as error:
+            self._inputs.drop_telemetry(now, str(error))
             self._refuse(client, error.counter, f"telemetry dropped: {error}")
             return
-        if client != self._active.name:
+        if anew:
             self._activate(client, now)
+        self._inputs.note_telemetry(now)
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
-        run, stamp = self._runs.track(telemetry, self._time_of(telemetry))
+        run, stamp = self._runs.track(telemetry, clock_time)
         if run.start == stamp:
             self._diagnostics.counts[Counter.RUNS] = run.number
             self.get_logger().info(f"run {run.number} begins: {self._runs.reason}")
@@ -181,6 +194,7 @@ class BridgeNode(Node):
             text = f"client {client} takes over from {before}, which was silent for {silence:.1f} s"
             self._count(Counter.TAKEOVERS, text)
         self._active.activate(client, now)
+        self._diagnostics.set_warning("simulator", "")
         self.get_logger().info(f"client {client} is active")
         self._publish_state()
 
@@ -192,49 +206,42 @@ class BridgeNode(Node):
         if answer is None:
             self._diagnostics.counts[Counter.COMMANDS_LATE] += 1
             return
+        now = time.monotonic()
+        self._inputs.note_command(now)
+        missed = self._log.ends(Counter.DEADLINE_MISSED, now)
+        if missed is not None:
+            self.get_logger().info(f"decisions come in time again, after {missed:.1f} s")
         if answer.counter == Counter.PICKUP_REFUSED:
             self._warn(answer.counter, "pickup refused: no sample in reach, or not standing still")
-        self._send(answer)
+        self._answers.send(answer)
 
     def _check_deadlines(self) -> None:
-        for answer in self._requests.expire(time.monotonic()):
+        now = time.monotonic()
+        for answer in self._requests.expire(now):
+            self._inputs.drop_command(now)
             self._warn(answer.counter, "no decision in time: braking")
-            self._send(answer)
+            self._answers.send(answer)
+
+    def _judge(self, now: float) -> None:
+        """What is expected, before the inputs are judged."""
+        self._inputs.expect(now, self._active.name is not None, owes=self._requests.empty)
 
     def _refuse(self, client: str, counter: str, text: str) -> None:
         """Answer a telemetry that is not published with the safe brake, and tell why."""
         self._warn(counter, text)
-        self._send(Answer(client, SAFE_COMMAND, counter), refused=text)
-
-    def _send(self, answer: Answer, refused: str = "") -> None:
-        self._diagnostics.counts[answer.counter] += 1
-        if answer.command.pickup:
-            self._server.send(answer.client, "pickup", {})
-            return
-        comma, insets = answer.client in self._comma_clients, self._insets.take(answer.client)
-        drive = encode_drive(answer.command, comma, insets, refused)
-        self._server.send(answer.client, "data", drive)
+        self._answers.send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
     def _publish_state(self) -> None:
         state = "disconnected" if self._active.name is None else "connected"
         self._state.publish(String(data=state))
-
-    def _time_of(self, telemetry: Telemetry) -> float:
-        """[s] of the simulator's clock, of the node's where the telemetry has no sim_time."""
-        return self._now() / NANOSECONDS if telemetry.sim_time is None else telemetry.sim_time
-
-    def _now(self) -> int:
-        return int(self.get_clock().now().nanoseconds)
 
     def _count(self, counter: str, text: str) -> None:
         self._diagnostics.counts[counter] += 1
         self._warn(counter, text)
 
     def _warn(self, counter: str, text: str) -> None:
-        """Log a line, unless one about this counter was logged within LOG_PERIOD."""
-        now = time.monotonic()
-        if now - self._warned.get(counter, -LOG_PERIOD) >= LOG_PERIOD:
-            self._warned[counter] = now
+        """Log a line as the trouble of this counter begins."""
+        if self._log.begins(counter, time.monotonic()):
             self.get_logger().warning(text)
 
 

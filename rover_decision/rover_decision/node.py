@@ -1,11 +1,11 @@
 """The decision node: perception results to drive commands, one for every frame.
 
-Subscribes odom, rover_status, nav_polar, rock_polar, free_scan and rocks (joined by stamp), and
-navigation_map.
+Subscribes odom, rover_status, nav_polar, rock_polar, free_scan and rocks (joined by stamp),
+navigation_map and /diagnostics.
 Publishes cmd_drive, mission_state (latched), plan and mission_markers (both while subscribed) and
 /diagnostics. Services ~/start, ~/pause, ~/resume, ~/return_home, ~/reset (std_srvs/Trigger); action
-~/run_mission (rover_interfaces/RunMission). Parameters: see DecisionConfig. In simulated time a
-frame waits for the plan that counts from it on, so that a mission repeats exactly.
+~/run_mission (rover_interfaces/RunMission). Parameters: see DecisionConfig and InputLimits. In
+simulated time a frame waits for the plan that counts from it on, so that a mission repeats exactly.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-from rover_common import topics
+from rover_common import nodes, topics
 from rover_common.ros import conversions, qos
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
@@ -39,6 +39,7 @@ from rover_decision.conversions import markers_of, mission_state_of, path_messag
 from rover_decision.missions.sample_return import configure, make_core
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.node_action import RunMissionServer
+from rover_decision.node_inputs import FRAMES, DecisionInputs
 from rover_decision.types import Decision, Frame, Request
 
 FRAME_PARTS = {
@@ -69,11 +70,14 @@ class DecisionNode(Node):
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
         self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
-        parts = [
-            self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
+        heard = {
+            topic: self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()
-        ]
-        self.create_subscription(OccupancyGrid, topics.NAVIGATION_MAP, self._on_map, qos.LATCHED)
+        }
+        parts = tuple(heard.values())
+        heard[topics.NAVIGATION_MAP] = self.create_subscription(
+            OccupancyGrid, topics.NAVIGATION_MAP, self._on_map, qos.LATCHED
+        )
         for request in Request:
             self.create_service(Trigger, f"~/{request.value}", partial(self._on_request, request))
         self._action = RunMissionServer(self, self._core)
@@ -84,7 +88,9 @@ class DecisionNode(Node):
             "bridge": lambda: self._command.get_subscription_count() > 0,
             "frames": lambda: all(part.get_publisher_count() > 0 for part in parts),
         }
-        self._diagnostics = NodeDiagnostics(self, peers)
+        self._inputs = DecisionInputs(self, heard)
+        self._diagnostics = NodeDiagnostics(self, peers, self._inputs.monitor)
+        self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
 
     def destroy_node(self) -> None:
         """End the action's goal and the planner's thread, then the node."""
@@ -108,13 +114,16 @@ class DecisionNode(Node):
         return response
 
     def _on_map(self, message: OccupancyGrid) -> None:
+        self._inputs.note(topics.NAVIGATION_MAP)
         stamp = conversions.stamp_of(message.header.stamp)
         self._core.give_map(stamp, conversions.grid_of(message))
         self._work()
 
     def _on_part(self, topic: str, message: Any) -> None:
+        self._inputs.note(topic)
         parts = self._sync.add(topic, conversions.stamp_of(message.header.stamp), message)
         self._diagnostics.counts["frames_incomplete"] = self._sync.dropped
+        self._inputs.note_incomplete(self._sync.dropped)
         if parts is not None:
             self._waiting.append((time.monotonic(), _frame_of(parts)))
             self._work()
@@ -137,6 +146,7 @@ class DecisionNode(Node):
         self._command.publish(
             conversions.command_message_of(now, frame.stamp, frame.run, decision.command)
         )
+        self._inputs.note(FRAMES)
         self._diagnostics.counts["frames"] += 1
         self._diagnostics.counts["plans_failed"] = self._core.plan_failures
         if self._core.plan_failures > failures:

@@ -1,11 +1,11 @@
 """The heat node: what the second robot's sensors say to goals, velocities and launches.
 
-Subscribes scan, imu, odom, temperature_sensor_1 and _2, flywheel_status, map (latched), /tf, in
-lockstep sensor_tick and navigation_tick. Publishes hazard_map, heat_sources, heat_state (latched),
-heat_markers (while watched), flywheel, cmd_vel (while the mission itself drives), /diagnostics, in
-lockstep mission_tick. Client of the action navigate_to_pose (nav2_msgs/NavigateToPose); serves
-~/run_mission (rover_interfaces/RunHeatMission) and ~/start, ~/pause, ~/resume, ~/reset
-(std_srvs/Trigger). Parameters: HeatNodeConfig.
+Subscribes scan, imu, odom, temperature_sensor_1 and _2, flywheel_status, map (latched), /tf,
+/diagnostics, in lockstep sensor_tick and navigation_tick. Publishes hazard_map, heat_sources,
+heat_state (latched), heat_markers (while watched), flywheel, cmd_vel (while the mission itself
+drives), /diagnostics, in lockstep mission_tick. Client of the action navigate_to_pose
+(nav2_msgs/NavigateToPose); serves ~/run_mission (rover_interfaces/RunHeatMission) and ~/start,
+~/pause, ~/resume, ~/reset (std_srvs/Trigger). Parameters: HeatNodeConfig, InputLimits.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from rclpy.node import Node
 from std_msgs.msg import Header, Int32
 from std_srvs.srv import Trigger
 
-from rover_common import topics
+from rover_common import nodes, topics
 from rover_common.ros import qos
 from rover_common.ros.conversions import grid_message_of, header_of
 from rover_common.ros.diagnostics import NodeDiagnostics
@@ -77,7 +77,8 @@ class HeatNode(Node):
                 self, self._sensors, self._navigator, self._core.ready, self._decide, self._answer
             )
             subscriptions.append(self._lockstep.subscription)
-        self._diagnostics = NodeDiagnostics(self, self._peers())
+        self._diagnostics = NodeDiagnostics(self, self._peers(), self._sensors.inputs)
+        self._diagnostics.join(nodes.HEAT_TEAM, self._sensors.limits.input_error_age)
         self._watch = EndpointWatch(self, self._diagnostics, subscriptions)
         self._look_timer = self.create_timer(
             LOOK, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME)

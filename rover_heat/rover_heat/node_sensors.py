@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -13,16 +15,28 @@ from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Float32MultiArray, String
 from tf2_msgs.msg import TFMessage
 
-from rover_common import frames, topics
+from rover_common import frames, nodes, topics
+from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.conversions import MessageError, grid_of, stamp_of
+from rover_common.ros.diagnostics import input_of
+from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.transforms import pose_of_transform
 from rover_common.sensor_batches import BatchCollector
 from rover_common.types import GridMap
 from rover_navigation.transform_buffer import TransformBuffer
 
 LOG_PERIOD = 5.0  # [s]
+# What has to come all the time, and for how long it is silent anyway [s].
+PAUSES = {
+    topics.SCAN: 0.0,
+    topics.IMU: 0.0,
+    topics.ODOMETRY: 0.0,
+    topics.TEMPERATURE_1: 1.0,
+    topics.TEMPERATURE_2: 1.0,
+    topics.MAP: 5.0,
+}
 
 
 class HeatSensors:
@@ -50,11 +64,28 @@ class HeatSensors:
         if lockstep:
             listened.append((SensorTick, topics.SENSOR_TICK, self._on_tick, qos.SENSOR))
         self.subscriptions = [
-            node.create_subscription(kind, topic, partial(self._store, callback), profile)
+            node.create_subscription(kind, topic, partial(self._store, topic, callback), profile)
             for kind, topic, callback, profile in listened
         ]
+        by_topic = dict(zip((row[1] for row in listened), self.subscriptions, strict=True))
+        self.limits = declare_parameters(node, InputLimits)
+        self.inputs = InputMonitor(
+            (
+                input_of(
+                    topic,
+                    by_topic[topic],
+                    nodes.NAVIGATOR if topic == topics.MAP else nodes.BURGER,
+                    pause,
+                )
+                for topic, pause in PAUSES.items()
+            ),
+            # In lockstep time passes as fast as the nodes answer.
+            replace(self.limits, input_min_rate=0.0) if lockstep else self.limits,
+        )
 
-    def _store(self, callback: Callable[[Any], None], message: Any) -> None:
+    def _store(self, topic: str, callback: Callable[[Any], None], message: Any) -> None:
+        if topic in PAUSES:
+            self.inputs.note(topic, time.monotonic())
         callback(message)
         self._heard()
 

@@ -1,13 +1,14 @@
 """The navigator node: drives the second robot to poses of a map that it makes itself.
 
-Subscribes scan, imu, odom, hazard_map (latched) and /tf, in lockstep sensor_tick. Publishes map
-(latched), /tf (map -> odom), plan (while subscribed), cmd_vel (while it has a goal), /diagnostics,
-in lockstep navigation_tick. Serves the action navigate_to_pose (nav2_msgs/NavigateToPose), as Nav2
-does. Parameters: NavigatorNodeConfig.
+Subscribes scan, imu, odom, hazard_map (latched), /tf and /diagnostics, in lockstep sensor_tick.
+Publishes map (latched), /tf (map -> odom), plan (while subscribed), cmd_vel (while it has a goal),
+/diagnostics, in lockstep navigation_tick. Serves the action navigate_to_pose
+(nav2_msgs/NavigateToPose), as Nav2 does. Parameters: NavigatorNodeConfig, InputLimits.
 """
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from typing import Any
 
@@ -18,12 +19,13 @@ from rover_interfaces.msg import NavigationTick, SensorTick
 from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
 
-from rover_common import frames, topics
+from rover_common import frames, nodes, topics
 from rover_common.burger import BURGER
+from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.conversions import grid_message_of, grid_of, stamp_of
-from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.endpoint_watch import EndpointWatch
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
@@ -63,7 +65,13 @@ class NavigatorNode(Node):
         self._velocity = VelocityPublisher(self, config.stamped_cmd_vel)
         self._server = NavigateServer(self, self._navigator, config.goal_tolerance)
         subscriptions = self._subscribe()
-        scan, odometry = subscriptions[0], subscriptions[2]
+        scan, imu, odometry = subscriptions[:3]
+        limits = declare_parameters(self, InputLimits)
+        sensors = {topics.SCAN: scan, topics.IMU: imu, topics.ODOMETRY: odometry}
+        self._inputs = InputMonitor(
+            (input_of(topic, each, nodes.BURGER) for topic, each in sensors.items()),
+            replace(limits, input_min_rate=0.0) if config.lockstep else limits,
+        )
         self._diagnostics = NodeDiagnostics(
             self,
             {
@@ -71,7 +79,9 @@ class NavigatorNode(Node):
                 "odometry": lambda: odometry.get_publisher_count() > 0,
                 "robot": lambda: self._velocity.connected,
             },
+            self._inputs,
         )
+        self._diagnostics.join(nodes.HEAT_TEAM, limits.input_error_age)
         self._watch = EndpointWatch(self, self._diagnostics, subscriptions)
         if not config.lockstep:
             self._timer = self.create_timer(PERIOD, self._on_timer)
@@ -97,15 +107,18 @@ class NavigatorNode(Node):
         super().destroy_node()
 
     def _on_scan(self, message: LaserScan) -> None:
+        self._inputs.note(topics.SCAN, time.monotonic())
         if len(message.ranges):
             self._collector.add(sensors.laser_scan_of(message))
         self._step_when_complete()
 
     def _on_imu(self, message: Imu) -> None:
+        self._inputs.note(topics.IMU, time.monotonic())
         self._collector.add(sensors.imu_of(message))
         self._step_when_complete()
 
     def _on_odometry(self, message: Odometry) -> None:
+        self._inputs.note(topics.ODOMETRY, time.monotonic())
         self._collector.add(sensors.wheel_odometry_of(message))
         self._step_when_complete()
 

@@ -1,13 +1,15 @@
 """The perception node: images and poses to a world map, polar arrays and rocks.
 
-Subscribes camera/image_raw, odom and rover_status (joined by stamp). Publishes nav_polar,
-rock_polar, free_scan and rocks (latched) for every frame; worldmap (latched) at the map period;
-navigation_map (latched), vision_image and birdseye_image only while subscribed; /diagnostics.
-Parameters: see PerceptionConfig. The whole contract is in the package's README.
+Subscribes camera/image_raw, odom and rover_status (joined by stamp), and /diagnostics. Publishes
+nav_polar, rock_polar, free_scan and rocks (latched) for every frame; worldmap (latched) at the map
+period; navigation_map (latched), vision_image and birdseye_image only while subscribed;
+/diagnostics.
+Parameters: see PerceptionConfig and InputLimits. The whole contract is in the package's README.
 """
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import cv2
@@ -20,10 +22,11 @@ from rclpy.publisher import Publisher
 from rover_interfaces.msg import PolarArray, RockTrackArray, RoverStatus
 from sensor_msgs.msg import Image, LaserScan
 
-from rover_common import frames, topics
+from rover_common import frames, nodes, topics
+from rover_common.input_monitor import Input, InputLimits, InputMonitor
 from rover_common.ros import conversions, qos
 from rover_common.ros.conversions import MessageError
-from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.sync import ExactTimeSynchronizer
@@ -84,7 +87,12 @@ class PerceptionNode(Node):
                 self._nav.get_subscription_count() > 0 and self._scan.get_subscription_count() > 0
             ),
         }
-        self._diagnostics = NodeDiagnostics(self, peers)
+        limits = declare_parameters(self, InputLimits)
+        sent = {topics.IMAGE: image, topics.ODOMETRY: odometry, topics.STATUS: status}
+        inputs = [input_of(topic, each, nodes.BRIDGE) for topic, each in sent.items()]
+        self._inputs = InputMonitor([*inputs, Input(FRAMES)], limits)
+        self._diagnostics = NodeDiagnostics(self, peers, self._inputs)
+        self._diagnostics.join(nodes.ROVER, limits.input_error_age)
 
     def _on_image(self, message: Image) -> None:
         self._on_part(topics.IMAGE, message)
@@ -96,8 +104,12 @@ class PerceptionNode(Node):
         self._on_part(topics.STATUS, message)
 
     def _on_part(self, topic: str, message: Any) -> None:
+        now, before = time.monotonic(), self._join.dropped
+        self._inputs.note(topic, now)
         parts = self._join.add(topic, conversions.stamp_of(message.header.stamp), message)
         self._diagnostics.counts[FRAMES_INCOMPLETE] = self._join.dropped
+        if self._join.dropped > before:
+            self._inputs.drop(FRAMES, now, "incomplete", self._join.dropped - before)
         if parts is None:
             return
         self._publish_due_maps()
@@ -112,10 +124,12 @@ class PerceptionNode(Node):
             self._drop(IMAGE_ENCODING, error)
         else:
             self._diagnostics.counts[FRAMES] += 1
+            self._inputs.note(FRAMES, now)
             self._publish(result)
 
     def _drop(self, counter: str, error: Exception) -> None:
         self._diagnostics.counts[counter] += 1
+        self._inputs.drop(FRAMES, time.monotonic(), str(error))
         self.get_logger().warning(f"frame dropped: {error}", throttle_duration_sec=LOG_PERIOD)
 
     def _publish(self, result: PerceptionResult) -> None:

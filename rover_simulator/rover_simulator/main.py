@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from rover_common.command_line import Whole, run_command
+from rover_common.command_line import Real, Whole, run_command
 from rover_simulator.options import WorldOptions, fps_option, time_limit_option, world_options
 
 FAST = "fast"  # as the server answers
@@ -45,6 +45,9 @@ class Rate(click.ParamType):
               help="realtime, fast (as the server answers), or N times real time.")  # fmt: skip
 @fps_option()
 @time_limit_option(None, "End when the simulated time, which begins at 1 s, reaches this [s].")
+@click.option("--dead-man", type=Real(0.0, 60.0), default=0.5, show_default=True, metavar="S",
+              help="Brake after this simulated time without a command [s]; 0 never, as the "
+              "original.")  # fmt: skip
 @click.option("--save-insets", "insets", metavar="DIR",
               type=click.Path(file_okay=False, path_type=Path),
               help="Save the insets that the server sends, and the screen with them.")  # fmt: skip
@@ -56,6 +59,7 @@ def command(
     rate: float | None,
     fps: float,
     time_limit: float | None,
+    dead_man: float,
     progress: bool,
     insets: Path | None,
 ) -> None:
@@ -75,7 +79,8 @@ def command(
 
     simulate(
         world.load(), world.seed, host=host, port=port, rate=rate, fps=fps,
-        time_limit=math.inf if time_limit is None else time_limit, progress=progress, insets=insets,
+        time_limit=math.inf if time_limit is None else time_limit, dead_man=dead_man,
+        progress=progress, insets=insets,
     )  # fmt: skip
 
 

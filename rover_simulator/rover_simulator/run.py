@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import signal
 import sys
 from pathlib import Path
@@ -32,14 +33,18 @@ class Stop:
 
 
 class Progress:
-    """Prints where the simulation stands, once per simulated second."""
+    """Prints where the simulation stands, once per simulated second, and the dead man's stops."""
 
     def __init__(self, simulation: Simulation, wanted: bool) -> None:
         self._simulation = simulation
         self._wanted = wanted
         self._next = 0.0  # [s]
+        self._stops = 0  # of the dead man, that were told
 
     def update(self) -> None:
+        if self._simulation.dead_man_stops > self._stops:
+            self._stops = self._simulation.dead_man_stops
+            print("rover sim: no command in time: braking", file=sys.stderr, flush=True)
         if self._simulation.time >= self._next:
             self._next = self._simulation.time + 1.0
             self.report()
@@ -55,6 +60,7 @@ class Progress:
             "samples_left": simulation.samples_left,
             "contacts": simulation.contacts,
             "distance": round(simulation.distance, 2),
+            "dead_man_stops": simulation.dead_man_stops,
         }
         print(json.dumps(line), flush=True)
 
@@ -68,17 +74,19 @@ def simulate(
     rate: float | None,
     fps: float,
     time_limit: float,
+    dead_man: float,
     progress: bool,
     insets: Path | None,
 ) -> None:
     """Drive in the world as the server commands.
 
     rate: times real time, None as fast as the server answers; fps: frames per simulated second;
-    time_limit [s]: of simulated time; insets: folder to save into what the screen would show.
+    time_limit [s]: of simulated time; dead_man [s]: of it without a command until the rover brakes,
+    0 for never; insets: folder to save into what the screen would show.
     """
     stop = Stop()
     frame_steps = frame_steps_of(fps)
-    simulation = Simulation(world, seed, frame_steps)
+    simulation = Simulation(world, seed, frame_steps, dead_man or math.inf)
     if insets is not None:
         simulation.show_insets(SavedScreen(insets).show)
     reports = Progress(simulation, progress)

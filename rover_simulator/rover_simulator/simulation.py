@@ -11,6 +11,7 @@ from rover_common.vehicle import ROVER
 from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.vehicle.arm import Arm
+from rover_simulator.vehicle.dead_man import DeadMan
 from rover_simulator.vehicle.fixed_turn import FixedTurn
 from rover_simulator.vehicle.ground import Ground, ground_under
 from rover_simulator.vehicle.vehicle import STEP, Controls, Vehicle
@@ -32,8 +33,12 @@ CONTACT_SECONDS = 0.5  # [s] after which another touch is another contact
 class Simulation:
     """Advances frame by frame; the same world and commands give the same telemetry."""
 
-    def __init__(self, world: World, terrain_seed: int, frame_steps: int) -> None:
-        """frame_steps: physics steps of 0.02 s in one rendered frame."""
+    def __init__(
+        self, world: World, terrain_seed: int, frame_steps: int, dead_man: float = math.inf
+    ) -> None:
+        """frame_steps: physics steps of 0.02 s in one rendered frame; dead_man: [s] of simulated
+        time without a command until a rover that drives brakes; as the original: never.
+        """
         self._terrain = terrain_of(world, terrain_seed)
         self._renderer = Renderer(world, self._terrain)
         self._boulders = world.boulders
@@ -42,6 +47,7 @@ class Simulation:
         self._arm = Arm([(float(x), float(y)) for x, y in world.samples])
         self._fixed_turn = FixedTurn()
         self._controls = Controls()
+        self._dead_man = DeadMan(dead_man)
         self._frame_steps = frame_steps
         self.time = START_TIME
         self.contacts = 0
@@ -72,8 +78,16 @@ class Simulation:
     def samples_left(self) -> int:
         return len(self._arm.samples)
 
+    @property
+    def dead_man_stops(self) -> int:
+        """How often the rover braked because no command came."""
+        return self._dead_man.stops
+
     def advance(self) -> None:
         """One rendered frame: its physics, then its image."""
+        if not self._held:
+            moving, frame = self._vehicle.speed != 0.0, self._frame_steps * STEP
+            self._controls = self._dead_man.controls(self.time, frame, self._controls, moving)
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)
@@ -119,6 +133,8 @@ class Simulation:
             actions[event](data)
         except (KeyError, TypeError, ValueError):
             return False
+        if event != "manual":  # which commands nothing
+            self._dead_man.hear(self.time)
         return True
 
     @property

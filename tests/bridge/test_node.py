@@ -138,7 +138,8 @@ def test_a_late_command_of_an_ended_run_begins_no_run(ros, bridge):
     late = ros.add(lambda **kwargs: Node("late", **kwargs))
     publisher = late.create_publisher(DriveCommand, topics.COMMAND, qos.FRAME)
     assert ros.spin_until(lambda: publisher.get_subscription_count() > 0)
-    answers_to(ros, bridge.port, telemetry(sim_time=100.0), telemetry(sim_time=1.0))
+    answers_to(ros, bridge.port, telemetry(sim_time=100.0))
+    answers_to(ros, bridge.port, telemetry(sim_time=1.0))  # reloaded, on another socket
     assert ros.spin_until(lambda: len(bridge.decider.statuses) == 2)
     publisher.publish(
         conversions.command_message_of(0, 0, Run(1, 0), Command(brake=1.0, new_run=True))

@@ -16,7 +16,7 @@ from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Float32MultiArray, Header, Int32, String
 from test_simulation import written
 
-from burger_simulator.lockstep import Lockstep
+from burger_simulator.lockstep import Lockstep, Settling
 from burger_simulator.node import BurgerNode
 from burger_simulator.simulation import BurgerSimulation
 from burger_simulator.world.generator import generate_maze
@@ -28,6 +28,12 @@ from rover_common.sensor_batches import BatchCollector
 from rover_common.sensor_types import SensorBatch, Twist
 
 LAUNCH_TICK = 20
+HEARD_BY_BOTH = (
+    (LaserScan, topics.SCAN, qos.SCAN),
+    (Imu, topics.IMU, qos.IMU),
+    (Odometry, topics.ODOMETRY, qos.SENSOR),
+    (SensorTick, topics.SENSOR_TICK, qos.SENSOR),
+)
 
 
 def controller(batch: SensorBatch) -> Twist:
@@ -60,8 +66,9 @@ class Peer(Node):
         ]  # fmt: skip
         for kind, topic, profile, store in said:
             self.create_subscription(kind, topic, partial(self._on_message, store), profile)
-        if with_mission:  # another one, as of another node
-            self.create_subscription(SensorTick, topics.SENSOR_TICK, lambda _: None, qos.SENSOR)
+        if with_mission:  # others, as of another node
+            for kind, topic, profile in HEARD_BY_BOTH:
+                self.create_subscription(kind, topic, lambda _: None, profile)
         self._cmd_vel = self.create_publisher(TwistStamped, topics.CMD_VEL, qos.CONTROL)
         self._tick = self.create_publisher(Header, topics.MISSION_TICK, qos.CONTROL)
         self._flywheel = self.create_publisher(Int32, topics.FLYWHEEL, qos.CONTROL)
@@ -131,8 +138,10 @@ def test_the_mission_is_waited_for_as_well(ros):
     ros.add(Peer)  # navigates, and is no mission
     other = ros.add(lambda **kwargs: Node("mission", **kwargs))
     tick = other.create_publisher(Header, topics.MISSION_TICK, qos.CONTROL)
-    other.create_subscription(SensorTick, topics.SENSOR_TICK, lambda _: None, qos.SENSOR)
     node = ros.add(BurgerNode, lockstep=True, lockstep_with_mission=True, rate=0.0)
+    for kind, topic, profile in HEARD_BY_BOTH:
+        assert not ros.spin_until(lambda: node.simulation.time > 1.0, timeout=0.7)
+        other.create_subscription(kind, topic, lambda _: None, profile)
     assert ros.spin_until(lambda: node.simulation.time > 1.0)
     assert not ros.spin_until(lambda: node.simulation.time > 1.06, timeout=0.5)
     tick.publish(header_of(node.simulation.stamp - 1, ""))  # of no tick
@@ -148,6 +157,16 @@ def test_the_rate_limits_a_lockstep(ros):
     assert ros.spin_until(lambda: peer.batches)
     assert not ros.spin_until(lambda: len(peer.batches) > 10, timeout=1.0)
     assert ros.spin_until(lambda: len(peer.batches) > 10)
+
+
+def test_it_is_settled_when_nothing_has_changed_for_a_while():
+    settling = Settling(0.5)
+    assert not settling.settled((1, 1), 10.0)
+    assert not settling.settled((1, 2), 10.4)
+    assert not settling.settled((1, 2), 10.8)
+    assert settling.settled((1, 2), 10.9)
+    assert settling.settled((2, 2), 11.0)
+    assert settling.done
 
 
 def test_missing_answers_and_their_deadline():

@@ -32,9 +32,11 @@ class Watched(Node):
 def states(ros: Any) -> list[DiagnosticStatus]:
     heard: list[DiagnosticStatus] = []
     listener = ros.add(lambda **kwargs: Node("listener", **kwargs))
-    listener.create_subscription(
-        DiagnosticArray, "/diagnostics", lambda m: heard.extend(m.status), qos.DIAGNOSTICS
-    )
+
+    def hear(message: DiagnosticArray) -> None:
+        heard.extend(status for status in message.status if status.name == "/watched")
+
+    listener.create_subscription(DiagnosticArray, "/diagnostics", hear, qos.DIAGNOSTICS)
     return heard
 
 

@@ -8,6 +8,7 @@ import pytest
 from node_endpoints import endpoints, listed
 from readme_tables import ROOT, column, table
 
+from rover_common.input_monitor import InputLimits
 from rover_decision.missions.sample_return.chart import State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.node import DecisionNode
@@ -37,8 +38,9 @@ def test_the_services_are_the_nodes(ros):
 
 def test_the_parameters_are_those_of_the_configuration():
     rows = table(README, "Parameters")
-    assert [row["parameter"] for row in rows] == [field.name for field in fields(DecisionConfig)]
-    for row, field in zip(rows, fields(DecisionConfig), strict=True):
+    declared = [*fields(DecisionConfig), *fields(InputLimits)]
+    assert [row["parameter"] for row in rows] == [field.name for field in declared]
+    for row, field in zip(rows, declared, strict=True):
         info = field.metadata["parameter"]
         limits = f"{info.minimum} to {info.maximum}"
         choices = ", ".join(f"{choice}" for choice in info.choices)

@@ -16,6 +16,7 @@ from readme_tables import ROOT, table
 
 from rover_common import frames
 from rover_common.geometry import Pose, distance_between, wrap_angle
+from rover_common.input_monitor import InputLimits
 from rover_common.ros.conversions import grid_message_of, grid_of, stamp_of
 from rover_common.ros.runner import EventsExecutor
 from rover_common.ros.transforms import pose_of_transform
@@ -159,7 +160,10 @@ def test_the_readme_lists_its_topics(ros):
 
 def test_the_readme_lists_its_parameters():
     rows = table(README, "Parameters of `navigator_node`")
-    fields = NavigatorNodeConfig.__dataclass_fields__.values()
+    fields = [
+        *NavigatorNodeConfig.__dataclass_fields__.values(),
+        *InputLimits.__dataclass_fields__.values(),
+    ]
     assert [row["parameter"] for row in rows] == [field.name for field in fields]
     for row, field in zip(rows, fields, strict=True):
         info = field.metadata["parameter"]

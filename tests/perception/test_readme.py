@@ -8,6 +8,7 @@ from readme_tables import ROOT, column, table
 from scene import EXACT, draw
 
 from rover_common.geometry import Pose
+from rover_common.input_monitor import InputLimits
 from rover_common.types import CameraFrame
 from rover_perception import config, node
 from rover_perception.config import PerceptionConfig
@@ -28,8 +29,9 @@ def test_the_topics_are_those_of_the_node(ros, heading):
 
 def test_the_parameters_are_those_of_the_configuration():
     rows = table(README, "Parameters")
-    assert [row["parameter"] for row in rows] == [field.name for field in fields(PerceptionConfig)]
-    for row, field in zip(rows, fields(PerceptionConfig), strict=True):
+    declared = [*fields(PerceptionConfig), *fields(InputLimits)]
+    assert [row["parameter"] for row in rows] == [field.name for field in declared]
+    for row, field in zip(rows, declared, strict=True):
         info = field.metadata["parameter"]
         assert row["default"] == str(field.default), field.name
         choices = ", ".join(info.choices)

@@ -1,13 +1,22 @@
 """Processes of a run: a dead one is told with its log, none outlives the run."""
 
 import os
+import shutil
+import signal
+import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
 from rover_tools.runner.domain import DomainError, reserved_domain
-from rover_tools.runner.processes import ProcessDiedError, Processes
+from rover_tools.runner.processes import (
+    RESPAWNS,
+    WITH_PARENT,
+    ProcessDiedError,
+    Processes,
+)
 
 WAIT = 10.0  # [s]
 
@@ -38,6 +47,58 @@ def test_the_end_of_an_optional_process_is_no_failure(tmp_path):
             processes.check()
         processes.make_optional("page")
         processes.check()
+
+
+def test_a_process_that_is_to_be_there_is_started_again(tmp_path, capsys):
+    code = "import os, signal; print(os.getpid(), flush=True); signal.pause()"
+    log = tmp_path / "worker.log"
+
+    def pids() -> list[int]:
+        return [int(line) for line in log.read_text().split()]
+
+    with Processes(tmp_path, {}) as processes:
+        processes.start("worker", [sys.executable, "-c", code])
+        wait_for(lambda: len(pids()) == 1)
+        processes.respawn(["worker"])
+        processes.check()
+        assert processes.remarks() == []
+        os.kill(pids()[0], signal.SIGKILL)
+        wait_for(lambda: processes.ended("worker") is not None)
+        processes.check()
+        wait_for(lambda: len(pids()) == 2)
+        second = pids()[1]
+        assert processes.pid("worker") == second
+        assert processes.remarks() == ["worker ended 1 times and was started again"]
+    assert "worker ended with exit code -9; it is started again" in capsys.readouterr().err
+    with pytest.raises(ProcessLookupError):
+        os.kill(second, 0)
+
+
+def test_a_process_that_ends_again_and_again_is_told(tmp_path):
+    with Processes(tmp_path, {}) as processes:
+        processes.start("worker", [sys.executable, "-c", "print('the reason')"])
+        processes.respawn(["worker"])
+        with pytest.raises(ProcessDiedError, match="the reason"):
+            for _ in range(RESPAWNS + 1):
+                wait_for(lambda: processes.ended("worker") is not None)
+                processes.check()
+
+
+@pytest.mark.skipif(not shutil.which(WITH_PARENT[0]), reason="needs setpriv")
+def test_processes_end_with_a_runner_that_is_killed(tmp_path):
+    code = (
+        "import sys, time; from pathlib import Path; "
+        "from rover_tools.runner.processes import Processes; "
+        "processes = Processes(Path(sys.argv[1]), {}); "
+        "processes.start('worker', [sys.executable, '-c', 'import os, signal; "
+        "print(os.getpid(), flush=True); signal.pause()']); time.sleep(60)"
+    )
+    log = tmp_path / "worker.log"
+    runner = subprocess.Popen([sys.executable, "-c", code, str(tmp_path)])
+    wait_for(lambda: log.is_file() and log.read_text().endswith("\n"))
+    runner.kill()
+    runner.wait()
+    wait_for(lambda: not Path(f"/proc/{int(log.read_text())}").exists())
 
 
 def test_all_processes_end_with_the_block(tmp_path):

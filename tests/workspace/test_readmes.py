@@ -21,6 +21,7 @@ from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.node import BridgeNode
 from rover_common import topics
+from rover_common.input_monitor import InputLimits
 from rover_common.vehicle import ROVER
 from rover_decision.node import DecisionNode
 from rover_navigation.node import NavigatorNode
@@ -54,8 +55,9 @@ def test_the_bridges_topics_are_the_nodes(ros, heading):
 
 def test_the_bridges_parameters_are_those_of_its_configuration():
     rows = table(BRIDGE, "Parameters")
-    assert [row["parameter"] for row in rows] == [field.name for field in fields(BridgeConfig)]
-    for row, field in zip(rows, fields(BridgeConfig), strict=True):
+    declared = [*fields(BridgeConfig), *fields(InputLimits)]
+    assert [row["parameter"] for row in rows] == [field.name for field in declared]
+    for row, field in zip(rows, declared, strict=True):
         info = field.metadata["parameter"]
         limits = "" if info.minimum is None else f"{info.minimum} to {info.maximum}"
         assert (row["default"], row["range"]) == (str(field.default) or "none", limits), field.name

@@ -16,6 +16,7 @@ import yaml
 
 from burger_simulator.config import BurgerConfig
 from rover_bridge.config import BridgeConfig
+from rover_common.input_monitor import InputLimits
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_heat.config import HeatConfig
@@ -38,6 +39,7 @@ CONFIGS = {
     "burger_node": BurgerConfig,
     "navigator_node": NavigatorNodeConfig,
 }
+WITH_INPUTS = ("bridge_node", "perception_node", "decision_node", "navigator_node", "heat_node")
 FILES = {  # of the others all are in one
     "heat_node": "heat.yaml",
     "burger_node": "burger.yaml",
@@ -153,12 +155,16 @@ def test_package_description(package):
 def test_the_yaml_lists_every_parameter_with_its_default_and_description(node):
     text = (ROOT / "rover_bringup" / "config" / FILES.get(node, "rover.yaml")).read_text()
     shipped = yaml.safe_load(text)[f"/**/{node}"]["ros__parameters"]
-    declared = {field.name: field.default for field in fields(CONFIGS[node])}
+    declared_fields = [
+        *fields(CONFIGS[node]),
+        *(fields(InputLimits) if node in WITH_INPUTS else ()),
+    ]
+    declared = {field.name: field.default for field in declared_fields}
     assert MISSING not in declared.values()
     assert shipped == declared
     comments = comments_of(text.split(f"/**/{node}:")[1].split("/**/")[0])
     assert comments == {
-        field.name: field.metadata["parameter"].description for field in fields(CONFIGS[node])
+        field.name: field.metadata["parameter"].description for field in declared_fields
     }
 
 

@@ -1,42 +1,69 @@
-"""Counters of a node, published as /diagnostics."""
+"""What a node says in /diagnostics: its counters, troubles and inputs, and its team's health.
+
+Names are those of diagnostic_updater: `/bridge_node` is the node, `/bridge_node: cmd_drive` a part.
+"""
 
 from __future__ import annotations
 
+import time
 from collections import Counter
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 
+from rover_common.health import Finding, Level, TeamHealth
+from rover_common.input_monitor import Input, InputMonitor, InputReport
 from rover_common.ros import qos
 
-PERIOD = 0.25  # [s] between checks; published once a second, and at once when the level changes
-CHECKS_PER_PUBLISH = 4
+PERIOD = 0.25  # [s] between two reports
+PEERS = "peers"  # the part that says who is not connected
+TEAM_STATUS = "rover"  # the name of the team's status
+
+
+def input_of(name: str, subscription: Subscription, source: str, pause: float = 0.0) -> Input:
+    """A topic that this node hears; the last two as of an Input."""
+    return Input(name, source, lambda: subscription.get_publisher_count() > 0, pause)
 
 
 class NodeDiagnostics:
-    """Publishes the node's counters and whether its peers are connected.
+    """Publishes the node's counters, troubles and inputs, and whether its peers are connected.
 
     `peers` maps a peer's name to a function that tells whether it is connected; until all are, the
     level is WARN. `counts` is the node's own: count events with `diagnostics.counts["name"] += 1`.
-    Other troubles are set by name, and taken away with an empty text.
+    Other troubles are set by name, and taken away with an empty text. `before_report` is called
+    with the time [s] of the steady clock before the inputs are judged.
     """
 
-    def __init__(self, node: Node, peers: Mapping[str, Callable[[], bool]]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        peers: Mapping[str, Callable[[], bool]],
+        inputs: InputMonitor | None = None,
+        before_report: Callable[[float], None] = lambda now: None,
+    ) -> None:
         self.counts: Counter[str] = Counter()
         self._node = node
         self._peers = dict(peers)
-        self._level: Any = None
-        self._checks = 0
+        self._inputs = inputs
+        self._before_report = before_report
+        self._team: TeamDiagnostics | None = None
         self._warnings: dict[str, str] = {}
         self._errors: dict[str, str] = {}
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         # Wall time: it must go on while the simulated clock stands still.
         self._timer = node.create_timer(
-            PERIOD, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME)
+            PERIOD, self._report, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
+
+    def join(self, team: Sequence[str], silent_age: float) -> None:
+        """Hear the other nodes of this team, and speak for it when it is this node's turn.
+
+        silent_age: [s] without a report after which a node is silent.
+        """
+        self._team = TeamDiagnostics(self._node, team, silent_age)
 
     def set_warning(self, name: str, text: str) -> None:
         """Something that a person should know; an empty text ends it."""
@@ -46,28 +73,102 @@ class NodeDiagnostics:
         """Something that keeps the node from its work; an empty text ends it."""
         self._errors[name] = text
 
-    def _check(self) -> None:
-        missing = [name for name, connected in self._peers.items() if not connected()]
-        errors = list(filter(None, self._errors.values()))
-        texts = errors + list(filter(None, self._warnings.values()))
-        texts += ["waiting for " + ", ".join(missing)] if missing else []
-        level = DiagnosticStatus.WARN if texts else DiagnosticStatus.OK
-        level = DiagnosticStatus.ERROR if errors else level
-        self._checks += 1
-        if level != self._level or self._checks >= CHECKS_PER_PUBLISH:
-            self._checks = 0
-            self._level = level
-            self._publish(level, texts)
-
-    def _publish(self, level: Any, texts: list[str]) -> None:
+    def _report(self) -> None:
+        now = time.monotonic()
+        self._before_report(now)
+        inputs = [] if self._inputs is None else self._inputs.reports(now)
         message = DiagnosticArray()
         message.header.stamp = self._node.get_clock().now().to_msg()
+        own = self._findings()
+        name = self._node.get_fully_qualified_name()
         message.status = [
-            DiagnosticStatus(
-                level=level,
-                name=self._node.get_fully_qualified_name(),
-                message="; ".join(texts) or "connected",
-                values=[KeyValue(key=k, value=str(v)) for k, v in sorted(self.counts.items())],
-            )
+            self._summary([*own, *(each.finding for each in inputs)]),
+            *(_status(f"{name}: {each.name}", each.level, each.text) for each in own),
+            *(_input_status(name, each) for each in inputs),
         ]
+        if self._team is not None:
+            message.status += self._team.status(now)
         self._publisher.publish(message)
+
+    def _findings(self) -> list[Finding]:
+        missing = [name for name, connected in self._peers.items() if not connected()]
+        waiting = f"waiting for {', '.join(missing)}" if missing else ""
+        return [
+            *(_trouble(name, Level.ERROR, text) for name, text in self._errors.items()),
+            *(_trouble(name, Level.WARN, text) for name, text in self._warnings.items()),
+            _trouble(PEERS, Level.WARN, waiting),
+        ]
+
+    def _summary(self, findings: Sequence[Finding]) -> DiagnosticStatus:
+        """The node's own status: the worst level, the worst text first."""
+        troubles = sorted(
+            (each for each in findings if each.level > Level.OK), key=lambda each: -each.level
+        )
+        own = (*self._errors, *self._warnings, PEERS)
+        texts = [t.text if t.name in own else f"{t.name}: {t.text}" for t in troubles]
+        status = _status(
+            self._node.get_fully_qualified_name(),
+            max((each.level for each in troubles), default=Level.OK),
+            "; ".join(texts) or "connected",
+        )
+        status.values = [KeyValue(key=k, value=str(v)) for k, v in sorted(self.counts.items())]
+        return status
+
+
+class TeamDiagnostics:
+    """The health of a team, of which each node hears and the first that is not silent speaks."""
+
+    def __init__(self, node: Node, team: Sequence[str], silent_age: float) -> None:
+        space = node.get_namespace().rstrip("/")
+        self._me = node.get_fully_qualified_name()
+        self._name = f"{space}/{TEAM_STATUS}"
+        self._health = TeamHealth([f"{space}/{name}" for name in team], silent_age)
+        node.create_subscription(
+            DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS
+        )
+
+    def status(self, now: float) -> list[DiagnosticStatus]:
+        """That of the team, if this node speaks for it."""
+        if self._health.speaker(now) != self._me:
+            return []
+        health = self._health.state(now)
+        return [_status(self._name, health.level, health.text.removeprefix("/"))]
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        now, name = time.monotonic(), ""
+        findings: list[Finding] = []
+        for status in message.status:
+            node, _, part = status.name.partition(": ")
+            name = name or node
+            if part and node == name:
+                findings.append(_finding_of(part, status, name))
+        self._health.hear(name, findings, now)
+
+
+def _trouble(name: str, level: Level, text: str) -> Finding:
+    return Finding(name, level if text else Level.OK, text)
+
+
+def _status(name: str, level: Level, text: str) -> DiagnosticStatus:
+    return DiagnosticStatus(level=bytes([level]), name=name, message=text)
+
+
+def _input_status(node: str, report: InputReport) -> DiagnosticStatus:
+    finding = report.finding
+    status = _status(f"{node}: {finding.name}", finding.level, finding.text)
+    values = {
+        "source": finding.source,
+        "age [s]": "" if report.age is None else f"{report.age:.2f}",
+        "rate [1/s]": f"{report.rate:.1f}",
+        "received": report.received,
+        "dropped": report.dropped,
+    }
+    status.values = [KeyValue(key=key, value=str(value)) for key, value in values.items()]
+    return status
+
+
+def _finding_of(part: str, status: DiagnosticStatus, node: str) -> Finding:
+    source = next((pair.value for pair in status.values if pair.key == "source"), "")
+    space = node.rpartition("/")[0]
+    level = Level(min(status.level[0], Level.ERROR))  # others may have more
+    return Finding(part, level, status.message, f"{space}/{source}" if source else "")

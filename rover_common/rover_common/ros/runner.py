@@ -14,8 +14,9 @@ from typing import Any
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.exceptions import ParameterException
-from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from rover_common.errors import RoverError
@@ -28,7 +29,7 @@ try:  # handles messages faster, but knows no guard conditions; not in every rel
 except ImportError:
     EventsExecutor = SingleThreadedExecutor
 
-# An idle executor's endless wait now and then misses a signal; a bounded one never does.
+# Python hears of a signal between two waits.
 WAIT_SECONDS = 0.2
 MAX_DOMAIN = 232  # beyond, DDS has no ports
 SOURCE_LINE = re.compile(r", at /.*", re.DOTALL)  # of the C library, in its messages
@@ -70,12 +71,16 @@ def run_node(
     args: list[str] | None = None,
     executor_class: Callable[[], Executor] = EventsExecutor,
 ) -> None:
-    """Make the node and spin it in this thread."""
-    # rclpy shuts its context down and then chains to this handler, so that no KeyboardInterrupt is
-    # raised at an arbitrary line.
-    signal.signal(signal.SIGINT, lambda *_: None)
+    """Make the node and spin it in this thread.
+
+    A signal ends the loop alone, not the context: a callback that runs may still publish, and the
+    node closes while ROS is there. Signals after the first change nothing.
+    """
+    stop: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _: stop.append(number))
     with start_errors():
-        start_ros(args)
+        start_ros(args, signal_handler_options=SignalHandlerOptions.NO)
     node = None
     try:
         with start_errors():
@@ -84,17 +89,9 @@ def run_node(
             node.get_logger().warning(f"ignored: there is no parameter {name}")
         executor = executor_class()
         executor.add_node(node)
-        while rclpy.ok():
+        while not stop and rclpy.ok():
             spin_for(executor, WAIT_SECONDS)
-    except ExternalShutdownException:
-        pass
-    except RCLError:
-        if rclpy.ok():  # otherwise it is the race with the shutdown
-            raise
     finally:
-        # A terminal and ros2 launch both send SIGINT: the second must not interrupt the clean-up.
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()

@@ -11,6 +11,8 @@ from typing import Any
 from rover_bridge.config import BridgeConfig
 from rover_common.config import problem_of
 from rover_common.errors import RoverError
+from rover_common.input_monitor import InputLimits
+from rover_common.nodes import ROVER
 from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
@@ -51,7 +53,12 @@ def read_parameters(path: Path) -> dict[str, dict[str, Any]]:
     found: dict[str, dict[str, Any]] = {name: {} for name in CONFIGS}
     for name, values in given.items():
         nodes = list(_nodes_of(path, name))
-        known = {each.name: each for node in nodes for each in fields(CONFIGS[node])}
+        known = {
+            each.name: each
+            for node in nodes
+            for config in (CONFIGS[node], *([InputLimits] if node in ROVER else []))
+            for each in fields(config)
+        }
         for parameter, value in values.items() if nodes else ():
             _check(path, name, str(parameter), value, known)
         for node in nodes:

@@ -20,7 +20,7 @@ from rover_tools.evaluation.strategy import Strategy
 from rover_tools.output import note
 from rover_tools.progress import Progress
 from rover_tools.report.recording_report import write_report
-from rover_tools.runner.graph import default_parameters
+from rover_tools.runner.graph import NODES, default_parameters
 from rover_tools.runner.node_watch import GraphWatch
 from rover_tools.runner.page import start_page
 from rover_tools.runner.recording import recording
@@ -59,6 +59,7 @@ def run_mission(
     overrides = OVERRIDES | strategy.parameters(folder.resolve() / "world" / MAP_NAME)
     start = time.monotonic()
     with running_graph(folder, overrides, parameters) as run:
+        run.processes.respawn(NODES)
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
@@ -70,11 +71,14 @@ def run_mission(
             stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
             grid = run.watch.wait_map(stamp, MAP_SECONDS)
             rocks = run.watch.rocks()
+        remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
+    if remarks:
+        result["remarks"] = remarks
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     if record:
         _report(folder, world, result)

@@ -12,6 +12,8 @@ from rover_common.errors import RoverError
 from rover_common.ros import qos
 from rover_tools.runner.node_in_domain import NodeInDomain
 
+PART = ": "  # between a node's name and that of one of its inputs or troubles
+
 
 class GraphNotReadyError(RoverError):
     """The nodes did not all connect in time."""
@@ -56,6 +58,7 @@ class DiagnosticsWatch(NodeInDomain):
         return {
             name.rsplit("/", 1)[-1]: {v.key: int(v.value) for v in status.values}
             for name, status in self.diagnostics.items()
+            if PART not in name
         }
 
     def close(self) -> None:

@@ -3,29 +3,36 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
 from rover_common.errors import RoverError
+from rover_tools.output import note
 
 LOG_LINES = 15  # of a dead process, shown to the user
 STOP_SECONDS = 5.0  # [s] for a clean end after SIGINT
+RESPAWNS = 5  # of one process in a run: one that dies more often is broken
+# Where it is, a process gets SIGTERM when the one that started it is killed.
+WITH_PARENT = ("setpriv", "--pdeathsig", "TERM", "--")
 
 
 class ProcessDiedError(RoverError):
     """A process of the run ended before it was asked to."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Child:
     name: str
+    command: Sequence[str]
     process: subprocess.Popen[bytes]
     log: Path
+    respawns: int = 0
 
 
 class Processes:
@@ -36,36 +43,65 @@ class Processes:
         self._environment = {**os.environ, **environment}
         self._children: list[_Child] = []
         self._optional: set[str] = set()
+        self._respawned: set[str] = set()
+        self._parent = WITH_PARENT if shutil.which(WITH_PARENT[0]) else ()
         self.stop_seconds = STOP_SECONDS
         log_dir.mkdir(parents=True, exist_ok=True)
 
     def start(self, name: str, command: Sequence[str]) -> None:
         """Start a command in a session of its own; its output goes to `<log_dir>/<name>.log`."""
         log = self._log_dir / f"{name}.log"
-        with log.open("wb") as output:
-            process = subprocess.Popen(
-                command,
+        log.unlink(missing_ok=True)
+        self._children.append(_Child(name, command, self._spawn(command, log), log))
+
+    def _spawn(self, command: Sequence[str], log: Path) -> subprocess.Popen[bytes]:
+        with log.open("ab") as output:
+            return subprocess.Popen(
+                [*self._parent, *command],
                 env=self._environment,
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
             )
-        self._children.append(_Child(name, process, log))
 
     def make_optional(self, name: str) -> None:
         """The run goes on when the named process ends."""
         self._optional.add(name)
 
+    def respawn(self, names: Iterable[str]) -> None:
+        """From now on `check` starts these processes again when they have ended."""
+        self._respawned |= set(names)
+
     def check(self) -> None:
-        """Raise ProcessDiedError, with the last lines of its log, when one has ended."""
+        """Start those again that are to be, and raise ProcessDiedError when another one has ended.
+
+        Its message has the last lines of the process's log.
+        """
         for child in self._children:
             code = child.process.poll()
-            if code is not None and child.name not in self._optional:
+            if code is None or child.name in self._optional:
+                continue
+            if child.name not in self._respawned or child.respawns == RESPAWNS:
                 raise ProcessDiedError(
                     f"{child.name} ended with exit code {code}; the end of {child.log}:\n"
                     + _tail(child.log)
                 )
+            note(f"{child.name} ended with exit code {code}; it is started again")
+            child.respawns += 1
+            child.process = self._spawn(child.command, child.log)
+
+    def remarks(self) -> list[str]:
+        """Which processes were started again, a line each."""
+        return [
+            f"{child.name} ended {child.respawns} times and was started again"
+            for child in self._children
+            if child.respawns
+        ]
+
+    def pid(self, name: str) -> int:
+        """Of the named process."""
+        return next(c for c in self._children if c.name == name).process.pid
 
     def ended(self, name: str) -> int | None:
         """The exit code of the named process, None while it runs."""

@@ -1,0 +1,82 @@
+"""Nodes that are stopped or killed while the rover drives: it brakes, says why, and goes on."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+
+import pytest
+from brake_times import DEAD_MAN, FRAME_STEPS, WAIT, WatchedSimulation, simulating, wait_for
+from diagnostic_msgs.msg import DiagnosticStatus
+
+from rover_common import nodes
+from rover_simulator.world.generator import generate_world
+from rover_tools.runner.graph import NODES
+from rover_tools.runner.run import Run, running_graph
+
+SEED = 5
+Driving = tuple[WatchedSimulation, Run]
+
+
+@pytest.fixture(scope="module")
+def driving(tmp_path_factory) -> Iterator[Driving]:
+    """A graph and the simulator in real time."""
+    simulation = WatchedSimulation(generate_world(SEED, 0.6), SEED, FRAME_STEPS, DEAD_MAN)
+    with running_graph(tmp_path_factory.mktemp("run")) as run:
+        run.processes.respawn(NODES)
+        with simulating(simulation, run):
+            yield simulation, run
+
+
+def health(run: Run) -> DiagnosticStatus:
+    return run.watch.diagnostics.get("/rover", DiagnosticStatus())
+
+
+def wait_until_it_drives(driving: Driving) -> None:
+    simulation, run = driving
+
+    def drives() -> bool:
+        run.processes.check()
+        return simulation.driving and simulation.speed > 0.3
+
+    assert wait_for(drives, WAIT), health(run).message
+
+
+def wait_until_it_is_told(run: Run, level: bytes, text: str) -> None:
+    def told() -> bool:
+        return health(run).level == level and text in health(run).message
+
+    assert wait_for(told, WAIT), f"{health(run).level} {health(run).message}"
+
+
+@pytest.mark.parametrize("node", NODES)
+def test_the_rover_brakes_while_a_node_is_stopped_and_goes_on_afterwards(driving, node):
+    simulation, run = driving
+    wait_until_it_drives(driving)
+    wait_until_it_is_told(run, DiagnosticStatus.OK, "")
+    pid = run.processes.pid(node)
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        assert wait_for(lambda: not simulation.driving and simulation.speed == 0.0, WAIT)
+        wait_until_it_is_told(run, DiagnosticStatus.ERROR, f"{node}: silent for ")
+    finally:
+        os.kill(pid, signal.SIGCONT)
+    wait_until_it_is_told(run, DiagnosticStatus.OK, "")
+    wait_until_it_drives(driving)
+
+
+@pytest.mark.parametrize("node", NODES)
+def test_the_rover_brakes_when_a_node_is_killed_and_goes_on_with_another_one(driving, node):
+    simulation, run = driving
+    wait_until_it_drives(driving)
+    stops, pid = simulation.dead_man_stops, run.processes.pid(node)
+    os.kill(pid, signal.SIGKILL)
+    assert wait_for(lambda: not simulation.driving and simulation.speed == 0.0, WAIT)
+    wait_until_it_is_told(run, DiagnosticStatus.ERROR, f"{node}: silent for ")
+    if node == nodes.BRIDGE:
+        assert simulation.dead_man_stops == stops + 1
+    run.processes.check()
+    assert run.processes.pid(node) != pid
+    wait_until_it_is_told(run, DiagnosticStatus.OK, "")
+    wait_until_it_drives(driving)
