@@ -26,8 +26,8 @@ from rover_bridge.errors import TelemetryError
 from rover_bridge.inbox import Inbox
 from rover_bridge.node_insets import InsetDrawer
 from rover_bridge.node_publishers import TelemetryPublishers
+from rover_bridge.node_runs import KeptRuns
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
-from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import SocketServer
 from rover_bridge.transport import (
     Connected,
@@ -68,7 +68,7 @@ class BridgeNode(Node):
         self._insets = InsetDrawer(self, config, truth)
         self._active = ActiveClient()
         self._requests = PendingRequests(config.answer_deadline)
-        self._runs = RunTracker()
+        self._runs = KeptRuns(self, config.state_dir)
         self._comma_clients: set[str] = set()
         self._warned: dict[str, float] = {}  # [s] wall time of the last line per counter
         self._inbox = Inbox()
@@ -97,6 +97,8 @@ class BridgeNode(Node):
             self._server.close()
         if hasattr(self, "_insets"):
             self._insets.close()
+        if hasattr(self, "_runs"):
+            self._runs.close()
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
@@ -162,15 +164,20 @@ class BridgeNode(Node):
             return
         if client != self._active.name:
             self._activate(client, now)
+        tracked = self._runs.track(telemetry, self._time_of(telemetry))
+        if tracked is None:
+            text = f"telemetry left out: {self._runs.contradiction}"
+            self._refuse(client, Counter.UNCONFIRMED, text)
+            return
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
-        run, stamp = self._runs.track(telemetry, self._time_of(telemetry))
+        run, stamp = tracked
         if run.start == stamp:
             self._diagnostics.counts[Counter.RUNS] = run.number
             self.get_logger().info(f"run {run.number} begins: {self._runs.reason}")
         self._topics.publish(stamp, run, telemetry)
         self._insets.follow(client, event.wire, run, telemetry.pose)
-        request = PendingRequest.of(client, stamp, time.monotonic(), telemetry)
-        self._requests.add(request)  # at last: what fails before has another answer
+        # At last: what fails before has another answer.
+        self._requests.add(PendingRequest.of(client, stamp, time.monotonic(), telemetry))
 
     def _activate(self, client: str, now: float) -> None:
         """Another client is the active one from now on."""
@@ -216,11 +223,11 @@ class BridgeNode(Node):
         self._server.send(answer.client, "data", drive)
 
     def _publish_state(self) -> None:
-        state = "disconnected" if self._active.name is None else "connected"
-        self._state.publish(String(data=state))
+        connected = self._active.name is not None
+        self._state.publish(String(data="connected" if connected else "disconnected"))
 
     def _time_of(self, telemetry: Telemetry) -> float:
-        """[s] of the simulator's clock, of the node's where the telemetry has no sim_time."""
+        """[s] of the simulator's clock, or of the node's."""
         return self._now() / NANOSECONDS if telemetry.sim_time is None else telemetry.sim_time
 
     def _now(self) -> int:
