@@ -2,9 +2,9 @@
 
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
-carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the health of the
-rover. Parameters: BridgeConfig and InputLimits. Counters: counters.Counter and errors. Answers may
-carry pictures, which node_insets draws.
+carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the rover's health.
+Parameters: BridgeConfig, InputLimits. Counters: counters.Counter and errors. Answers may carry
+pictures, which node_insets draws.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from rclpy.node import Node
 from rover_interfaces.msg import DriveCommand
 from std_msgs.msg import String
 
+from rover_bridge import transport
 from rover_bridge.active_client import ActiveClient
 from rover_bridge.answer_sender import AnswerSender
 from rover_bridge.codec import decode_telemetry
@@ -33,15 +34,6 @@ from rover_bridge.node_runs import KeptRuns
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
 from rover_bridge.server import SocketServer
 from rover_bridge.telemetry_clock import TelemetryClock
-from rover_bridge.transport import (
-    Connected,
-    ConnectionRefused,
-    Disconnected,
-    ProtocolErrorReported,
-    ServerEvent,
-    TelemetryReceived,
-    Transport,
-)
 from rover_bridge.trouble_log import TroubleLog
 from rover_common import nodes, topics
 from rover_common.ground_truth import load_truth
@@ -80,7 +72,7 @@ class BridgeNode(Node):
         self._log = TroubleLog()
         self._inbox = Inbox()
         self._arrival = self.create_guard_condition(self._on_arrivals)
-        self._server: Transport = SocketServer(
+        self._server: transport.Transport = SocketServer(
             config.host, config.port, self._on_server_event, config.limits(), config.access()
         )
         self.port = self._server.port
@@ -96,12 +88,9 @@ class BridgeNode(Node):
 
     def destroy_node(self) -> None:
         """Close the connections, end the server's and the insets' threads, then the node."""
-        if hasattr(self, "_server"):
-            self._server.close()
-        if hasattr(self, "_insets"):
-            self._insets.close()
-        if hasattr(self, "_runs"):
-            self._runs.close()
+        for part in ("_server", "_insets", "_runs"):
+            if hasattr(self, part):
+                getattr(self, part).close()
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
@@ -118,7 +107,7 @@ class BridgeNode(Node):
         self._answers = AnswerSender(self._server, self._insets.take, counts)
         self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
 
-    def _on_server_event(self, event: ServerEvent) -> None:
+    def _on_server_event(self, event: transport.ServerEvent) -> None:
         """Called in the server's thread."""
         self._inbox.put(event)
         self._arrival.trigger()
@@ -131,21 +120,21 @@ class BridgeNode(Node):
             self._on_event(event)
         self._arrival.trigger()
 
-    def _on_event(self, event: ServerEvent) -> None:
-        if isinstance(event, TelemetryReceived):
+    def _on_event(self, event: transport.ServerEvent) -> None:
+        if isinstance(event, transport.TelemetryReceived):
             try:
                 self._on_telemetry(event)
             except Exception as error:  # a defect of this node: also this one has its answer
                 self._refuse(event.client, Counter.FAILED, f"telemetry failed: {error!r:.200}")
-        elif isinstance(event, Connected):
+        elif isinstance(event, transport.Connected):
             self._active.connect(event.client, event.address, time.monotonic())
             self._diagnostics.counts[Counter.CONNECTIONS] += 1
             self.get_logger().debug(f"client {event.client} of {event.address} connected")
-        elif isinstance(event, ProtocolErrorReported):
+        elif isinstance(event, transport.ProtocolErrorReported):
             self._count(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
-        elif isinstance(event, ConnectionRefused):
+        elif isinstance(event, transport.ConnectionRefused):
             self._count(Counter.CONNECTIONS_REFUSED, f"{event.address} refused: {event.reason}")
-        elif isinstance(event, Disconnected):
+        elif isinstance(event, transport.Disconnected):
             self._on_disconnected(event.client)
 
     def _on_disconnected(self, client: str) -> None:
@@ -157,7 +146,7 @@ class BridgeNode(Node):
             self._requests.clear()
             self._publish_state()
 
-    def _on_telemetry(self, event: TelemetryReceived) -> None:
+    def _on_telemetry(self, event: transport.TelemetryReceived) -> None:
         self._answers.read(event.client, event.wire)
         client, now = event.client, time.monotonic()
         if not self._active.accepts(client, now, owes=self._requests.empty):
@@ -171,16 +160,13 @@ class BridgeNode(Node):
             anew = client != self._active.name
             clock_time = self._telemetry_clock.read(telemetry.sim_time, now, anew)
         except TelemetryError as error:
-            self._inputs.drop_telemetry(now, str(error))
-            self._refuse(client, error.counter, f"telemetry dropped: {error}")
+            self._drop(client, now, error.counter, str(error))
             return
         if anew:
             self._activate(client, now)
         tracked = self._runs.track(telemetry, clock_time)
         if tracked is None:
-            text = f"telemetry left out: {self._runs.contradiction}"
-            self._inputs.drop_telemetry(now, text)
-            self._refuse(client, Counter.UNCONFIRMED, text)
+            self._drop(client, now, Counter.UNCONFIRMED, self._runs.contradiction)
             return
         self._inputs.note_telemetry(now)
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
@@ -216,8 +202,7 @@ class BridgeNode(Node):
             return
         now = time.monotonic()
         self._inputs.note_command(now)
-        missed = self._log.ends(Counter.DEADLINE_MISSED, now)
-        if missed is not None:
+        if (missed := self._log.ends(Counter.DEADLINE_MISSED, now)) is not None:
             self.get_logger().info(f"decisions come in time again, after {missed:.1f} s")
         if answer.counter == Counter.PICKUP_REFUSED:
             self._warn(answer.counter, "pickup refused: no sample in reach, or not standing still")
@@ -233,6 +218,10 @@ class BridgeNode(Node):
     def _judge(self, now: float) -> None:
         """What is expected, before the inputs are judged."""
         self._inputs.expect(now, self._active.name is not None, owes=self._requests.empty)
+
+    def _drop(self, client: str, now: float, counter: str, why: str) -> None:
+        self._inputs.drop_telemetry(now, why)
+        self._refuse(client, counter, f"telemetry dropped: {why}")
 
     def _refuse(self, client: str, counter: str, text: str) -> None:
         """Answer a telemetry that is not published with the safe brake, and tell why."""

@@ -53,10 +53,9 @@ def run_mission(
 ) -> Result:
     """Run one mission to its end, score it, and write the result folder.
 
-    time_limit [s]: of simulated time. A strategy that is not given is that of the parameters.
-    `page` serves the live page, `open_page` shows it in a browser; `record` records the run
-    into the result folder, and leaves its report and video there. `resume`: the mission that was
-    interrupted there goes on.
+    time_limit [s]: of simulated time; strategy: instead of that of the parameters; page: serve the
+    live page; open_page: show it in a browser; record: leave report and video as well; resume: the
+    mission that was interrupted in the folder goes on.
     Raises ParametersError, GraphNotReadyError or ProcessDiedError.
     """
     world.save(folder / "world")
@@ -76,11 +75,9 @@ def run_mission(
         remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
-        recoveries=None if mission is None else mission.recoveries,
-        wall_seconds=time.monotonic() - start,
+        recoveries=mission and mission.recoveries, wall_seconds=time.monotonic() - start,
     )  # fmt: skip
-    if remarks:
-        result["remarks"] = remarks
+    result |= {"remarks": remarks} if remarks else {}
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     mission_state.end(folder)
     if record:
