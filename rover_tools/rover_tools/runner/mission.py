@@ -64,9 +64,7 @@ def run_mission(
     mission_state.prepare(folder, setup, resume)
     start = time.monotonic()
     with running_graph(folder, _overrides(folder, strategy), parameters) as run:
-        run.processes.respawn(NODES)
-        if page:
-            start_page(run, parameters or default_parameters(), open_page)
+        _respawn_and_show(run, parameters, page, open_page)
         with recording(run, record):
             run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
             done = _watch(run, time_limit)
@@ -83,6 +81,12 @@ def run_mission(
     if record:
         _report(folder, world, result)
     return result
+
+
+def _respawn_and_show(run: Run, parameters: Path | None, page: bool, open_page: bool) -> None:
+    run.processes.respawn(NODES)
+    if page:
+        start_page(run, parameters or default_parameters(), open_page)
 
 
 def _measured(run: Run) -> tuple[MissionRun, GridMap | None]:
