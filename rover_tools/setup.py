@@ -6,7 +6,9 @@ setup(
     name=PACKAGE,
     version="0.1.0",
     packages=find_packages(),
-    package_data={PACKAGE + folder: ["templates/*"] for folder in (".report", ".scoreboard")},
+    package_data={
+        PACKAGE + folder: ["templates/*"] for folder in (".new_part", ".report", ".scoreboard")
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", ["resource/" + PACKAGE]),
         ("share/" + PACKAGE, ["package.xml"]),

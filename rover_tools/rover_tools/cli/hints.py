@@ -23,6 +23,8 @@ COMMANDS = {
     "score": "scoreboard",
     "scores": "scoreboard",
     "evaluate": "scoreboard",
+    "create": "new",
+    "init": "new",
     "tests": "test",
     "pytest": "test",
     "exec": "run",

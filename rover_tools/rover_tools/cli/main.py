@@ -23,6 +23,7 @@ TABLE = {
     "map": Entry(f"{COMMANDS}.map", "the world map of the running graph, without ros2"),
     "explain": Entry(f"{COMMANDS}.explain", "perception's stages on one image, as a picture"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
+    "new": Entry(f"{COMMANDS}.new", "a package with an explorer or a perception of your own"),
     "heat": Entry(
         "rover_tools.cli.heat.group", "the second robot's mission: demo, mission, scoreboard, sim"
     ),
