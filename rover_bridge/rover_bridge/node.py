@@ -3,7 +3,7 @@
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
 carries sim_time) and /diagnostics. Subscribes cmd_drive. Parameters: BridgeConfig. Counters:
-counters.Counter and errors. Answers may carry pictures, which node_insets draws.
+counters.Counter and errors. Beside it: node_insets, pictures in answers; node_drivers, who drives.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
 from rover_bridge.inbox import Inbox
+from rover_bridge.node_drivers import DriverTopics
 from rover_bridge.node_insets import InsetDrawer
 from rover_bridge.node_publishers import TelemetryPublishers
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
@@ -45,7 +46,7 @@ from rover_common.ros.conversions import NANOSECONDS, command_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.types import SAFE_COMMAND, Telemetry
+from rover_common.types import SAFE_COMMAND, Command, Telemetry
 
 LOG_PERIOD = 5.0  # [s] between two lines about the same counter
 CHECKS_PER_DEADLINE = 4
@@ -74,14 +75,10 @@ class BridgeNode(Node):
         self._inbox = Inbox()
         self._arrival = self.create_guard_condition(self._on_arrivals)
         self._server: Transport = SocketServer(
-            config.host,
-            config.port,
-            self._on_server_event,
-            config.limits(),
-            config.access(),
+            config.host, config.port, self._on_server_event, config.limits(), config.access()
         )
         self.port = self._server.port
-        self._make_endpoints()
+        self._make_endpoints(config.enable_stamped_cmd_vel)
         # Wall time: a deadline that waited for simulated time would never come.
         self._deadline_timer = self.create_timer(
             config.answer_deadline / CHECKS_PER_DEADLINE,
@@ -99,13 +96,12 @@ class BridgeNode(Node):
             self._insets.close()
         super().destroy_node()
 
-    def _make_endpoints(self) -> None:
+    def _make_endpoints(self, stamped: bool) -> None:
         self._topics = TelemetryPublishers(self, self._now())
         self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
-        command = self.create_subscription(
-            DriveCommand, topics.COMMAND, self._on_command, qos.FRAME
-        )
-        self._diagnostics = NodeDiagnostics(self, self._topics.peers(command))
+        drive = self.create_subscription(DriveCommand, topics.COMMAND, self._on_command, qos.FRAME)
+        self._diagnostics = NodeDiagnostics(self, self._topics.peers(drive))
+        self._drivers = DriverTopics(self, self._diagnostics, stamped, drive)
 
     def _on_server_event(self, event: ServerEvent) -> None:
         """Called in the server's thread."""
@@ -170,7 +166,10 @@ class BridgeNode(Node):
         self._topics.publish(stamp, run, telemetry)
         self._insets.follow(client, event.wire, run, telemetry.pose)
         request = PendingRequest.of(client, stamp, time.monotonic(), telemetry)
+        command = self._drivers.answer(stamp, telemetry)
         self._requests.add(request)  # at last: what fails before has another answer
+        if command is not None:
+            self._answer(stamp, command)
 
     def _activate(self, client: str, now: float) -> None:
         """Another client is the active one from now on."""
@@ -188,6 +187,11 @@ class BridgeNode(Node):
         stamp, command = command_of(message)
         if command.new_run:
             self._runs.request(message.run)
+        self._drivers.hear_decision()
+        self._answer(stamp, command)
+
+    def _answer(self, stamp: int, command: Command) -> None:
+        """The telemetry of this stamp [ns], unless it has its answer already."""
         answer = self._requests.answer(stamp, command)
         if answer is None:
             self._diagnostics.counts[Counter.COMMANDS_LATE] += 1

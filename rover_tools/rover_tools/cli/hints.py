@@ -23,6 +23,8 @@ COMMANDS = {
     "score": "scoreboard",
     "scores": "scoreboard",
     "evaluate": "scoreboard",
+    "teleop": "drive",
+    "keyboard": "drive",
     "create": "new",
     "init": "new",
     "tests": "test",
