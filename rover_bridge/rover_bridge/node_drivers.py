@@ -58,16 +58,19 @@ class DriverTopics:
         wanted = self._arbiter.velocity(driver)
         if wanted is not None:
             return self._control.command(stamp, telemetry.pose, telemetry.speed, wanted)
-        waits_for_velocity = any(each.get_publisher_count() for each in self.subscriptions)
-        if driver is Driver.NOBODY and waits_for_velocity:
-            # A navigator needs the odometry of a standing rover at its full rate.
-            return None if self._decision.get_publisher_count() else SAFE_COMMAND
+        if driver is Driver.NOBODY and self._velocities_only():
+            return SAFE_COMMAND  # a navigator needs the odometry of a standing rover, too
         return None
 
     def hear_decision(self) -> None:
         """A command of the decision node has come."""
         self._arbiter.hear(Driver.DECISION, self._time)
         self._note(self._arbiter.driver(self._time))
+
+    def _velocities_only(self) -> bool:
+        """Whether a node may drive by velocities, and none as the decision node does."""
+        velocities = any(each.get_publisher_count() for each in self.subscriptions)
+        return velocities and not self._decision.get_publisher_count()
 
     def _on_velocity(self, driver: Driver, message: Any) -> None:
         wanted = twist_of(message.twist if isinstance(message, TwistStamped) else message)

@@ -21,14 +21,14 @@ THROTTLE_PER_SPEED = 3.0  # [s/m] throttle per missing speed
 THROTTLE_TO_HOLD = 0.067  # [s/m] throttle per speed, against what the wheels damp on flat ground
 THROTTLE_PER_DISTANCE = 1.0  # [1/m] per distance that was missed: holds the speed on a slope
 MOST_MISSED = 0.5  # [m] that counts
-NEAR_SPEED = 0.2  # [m/s] what is missed counts this near to the speed, not while it is gathered
+NEAR_SPEED = 0.2  # [m/s] what is missed counts this near to the speed only
 BRAKE_PER_SPEED = 1.0  # [s/m] brake per excess speed
 SPEED_SLACK = 0.15  # [m/s] of excess without the brake: the rover coasts
 # A rover without throttle and brake that steers slowly begins to turn in place, and stops.
 LEAST_THROTTLE = 0.001
-STEERING_PER_TURN = 0.3  # steering per angle [rad] that was missed
+STEERING_PER_TURN = 0.6  # steering per angle [rad] that was missed
 MOST_TRIM = 0.05  # [rad] of steering for that
-TRIM_SPEED = 0.3  # [m/s] from where on the yaw rate says something about the wheels
+TRIM_SPEED = 0.2  # [m/s] from where on the yaw rate says something about the wheels
 LONGEST_GAP = 0.5  # [s] between telemetries; after a longer one nothing that was missed counts
 TURN_MARGIN = 0.9  # of the speed below which it turns in place
 
@@ -73,15 +73,15 @@ class VelocityControl:
         return elapsed, wrap_angle(pose.yaw - before[1]) / elapsed if elapsed > 1e-3 else 0.0
 
     def _add_up(self, elapsed: float, speed: float, yaw_rate: float, wanted: Twist) -> None:
-        missed = self._missed
         missing = self._direction * (wanted.linear - speed)
-        if abs(missing) < NEAR_SPEED:
-            distance = missed.distance + missing * elapsed
-            missed.distance = max(-MOST_MISSED, min(MOST_MISSED, distance))
+        if abs(missing) >= NEAR_SPEED:
+            return
+        distance = self._missed.distance + missing * elapsed
+        self._missed.distance = max(-MOST_MISSED, min(MOST_MISSED, distance))
         if elapsed > 1e-3 and abs(speed) > TRIM_SPEED:
-            turn = missed.turn + (wanted.angular - yaw_rate) * elapsed
+            turn = self._missed.turn + (wanted.angular - yaw_rate) * elapsed
             limit = MOST_TRIM / STEERING_PER_TURN
-            missed.turn = max(-limit, min(limit, turn))
+            self._missed.turn = max(-limit, min(limit, turn))
 
     def _drive(self, speed: float, direction: int, wanted: Twist) -> Command:
         """speed: [m/s] in the direction of travel."""

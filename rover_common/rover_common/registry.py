@@ -41,7 +41,7 @@ class Registry(Collection[str]):
         yield from sorted(self._installed().keys() - self._own)
 
     def __len__(self) -> int:
-        return len(list(iter(self)))
+        return sum(1 for _ in self)
 
     def load(self, name: str, expected: type[T]) -> T:
         """The part of this name; raises PartError, which says in one line what is wrong."""

@@ -106,7 +106,7 @@ def test_a_velocity_that_is_not_finite_brakes(ros, bridge, person):
     velocity = person.connect(ros, topics.CMD_VEL)
     with Unity(bridge.port) as unity:
         ask(ros, unity, 1.0)
-        tell(ros, bridge.node, velocity, twist(math.nan))
+        tell(ros, bridge.node, velocity, twist(math.inf))
         assert float(ask(ros, unity, 1.1)["brake"]) == 1.0
 
 
