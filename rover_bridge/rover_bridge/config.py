@@ -46,6 +46,9 @@ class BridgeConfig:
         minimum=0.01,
         maximum=60.0,
     )
+    enable_stamped_cmd_vel: bool = parameter(
+        False, "whether velocities are TwistStamped, as the parameter of this name of Nav2 says"
+    )
     insets: str = parameter(
         "auto",
         "when answers carry pictures for the simulator's screen: always, never, or auto: for a "

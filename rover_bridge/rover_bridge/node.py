@@ -3,8 +3,8 @@
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
 carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the rover's health.
-Parameters: BridgeConfig, InputLimits. Counters: counters.Counter and errors. Answers may carry
-pictures, which node_insets draws.
+Parameters: BridgeConfig, InputLimits. Counters: counters.Counter and errors. Beside it: node_insets
+and node_drivers.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
 from rover_bridge.inbox import Inbox
+from rover_bridge.node_drivers import DriverTopics
 from rover_bridge.node_inputs import BridgeInputs
 from rover_bridge.node_insets import InsetDrawer
 from rover_bridge.node_publishers import TelemetryPublishers
@@ -42,7 +43,7 @@ from rover_common.ros.conversions import command_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
-from rover_common.types import SAFE_COMMAND
+from rover_common.types import SAFE_COMMAND, Command
 
 # From a telemetry to its brake at most the deadline and a check of it pass. With a frame of the
 # simulator before and one after, that is less than 0.5 s of 10 frames a second.
@@ -76,7 +77,7 @@ class BridgeNode(Node):
             config.host, config.port, self._on_server_event, config.limits(), config.access()
         )
         self.port = self._server.port
-        self._make_endpoints()
+        self._make_endpoints(config.enable_stamped_cmd_vel)
         # Wall time: a deadline that waited for simulated time would never come.
         self._deadline_timer = self.create_timer(
             config.answer_deadline / CHECKS_PER_DEADLINE,
@@ -93,19 +94,18 @@ class BridgeNode(Node):
                 getattr(self, part).close()
         super().destroy_node()
 
-    def _make_endpoints(self) -> None:
+    def _make_endpoints(self, stamped: bool) -> None:
         self._topics = TelemetryPublishers(self, int(self.get_clock().now().nanoseconds))
         self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
-        command = self.create_subscription(
-            DriveCommand, topics.COMMAND, self._on_command, qos.FRAME
-        )
-        self._inputs = BridgeInputs(self, command)
+        drive = self.create_subscription(DriveCommand, topics.COMMAND, self._on_command, qos.FRAME)
+        self._inputs = BridgeInputs(self, drive)
         self._diagnostics = NodeDiagnostics(
-            self, self._topics.peers(command), self._inputs.monitor, self._judge
-        )
-        counts = self._diagnostics.counts
-        self._answers = AnswerSender(self._server, self._insets.take, counts)
+            self, self._topics.peers(drive), self._inputs.monitor,
+            lambda now: self._inputs.expect(now, bool(self._active.name), self._requests.empty),
+        )  # fmt: skip
+        self._answers = AnswerSender(self._server, self._insets.take, self._diagnostics.counts)
         self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
+        self._drivers = DriverTopics(self, self._diagnostics, stamped, drive)
 
     def _on_server_event(self, event: transport.ServerEvent) -> None:
         """Called in the server's thread."""
@@ -176,13 +176,15 @@ class BridgeNode(Node):
             self.get_logger().info(f"run {run.number} begins: {self._runs.reason}")
         self._topics.publish(stamp, run, telemetry)
         self._insets.follow(client, event.wire, run, telemetry.pose)
-        # At last: what fails before has another answer.
-        self._requests.add(PendingRequest.of(client, stamp, time.monotonic(), telemetry))
+        request = PendingRequest.of(client, stamp, time.monotonic(), telemetry)
+        command = self._drivers.answer(stamp, telemetry)
+        self._requests.add(request)  # at last: what fails before has another answer
+        if command is not None:
+            self._answer(stamp, command)
 
     def _activate(self, client: str, now: float) -> None:
         """Another client is the active one from now on."""
-        before = self._active.name
-        if before is not None:
+        if (before := self._active.name) is not None:
             silence = self._active.silence(now)
             self._requests.clear()
             text = f"client {client} takes over from {before}, which was silent for {silence:.1f} s"
@@ -196,17 +198,23 @@ class BridgeNode(Node):
         stamp, command = command_of(message)
         if command.new_run:
             self._runs.request(message.run)
+        self._drivers.hear_decision()
+        if self._answer(stamp, command):
+            now = time.monotonic()
+            self._inputs.note_command(now)
+            if (missed := self._log.ends(Counter.DEADLINE_MISSED, now)) is not None:
+                self.get_logger().info(f"decisions come in time again, after {missed:.1f} s")
+
+    def _answer(self, stamp: int, command: Command) -> bool:
+        """The telemetry of this stamp [ns]; False if it has its answer already."""
         answer = self._requests.answer(stamp, command)
         if answer is None:
             self._diagnostics.counts[Counter.COMMANDS_LATE] += 1
-            return
-        now = time.monotonic()
-        self._inputs.note_command(now)
-        if (missed := self._log.ends(Counter.DEADLINE_MISSED, now)) is not None:
-            self.get_logger().info(f"decisions come in time again, after {missed:.1f} s")
+            return False
         if answer.counter == Counter.PICKUP_REFUSED:
             self._warn(answer.counter, "pickup refused: no sample in reach, or not standing still")
         self._answers.send(answer)
+        return True
 
     def _check_deadlines(self) -> None:
         now = time.monotonic()
@@ -214,10 +222,6 @@ class BridgeNode(Node):
             self._inputs.drop_command(now)
             self._warn(answer.counter, "no decision in time: braking")
             self._answers.send(answer)
-
-    def _judge(self, now: float) -> None:
-        """What is expected, before the inputs are judged."""
-        self._inputs.expect(now, self._active.name is not None, owes=self._requests.empty)
 
     def _drop(self, client: str, now: float, counter: str, why: str) -> None:
         self._inputs.drop_telemetry(now, why)
@@ -229,8 +233,7 @@ class BridgeNode(Node):
         self._answers.send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
     def _publish_state(self) -> None:
-        connected = self._active.name is not None
-        self._state.publish(String(data="connected" if connected else "disconnected"))
+        self._state.publish(String(data="connected" if self._active.name else "disconnected"))
 
     def _count(self, counter: str, text: str) -> None:
         self._diagnostics.counts[counter] += 1

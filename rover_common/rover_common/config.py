@@ -6,6 +6,7 @@ ROS parameters from these fields; the shipped YAML lists the same names.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -26,7 +27,7 @@ class ParameterInfo:
     description: str  # with the unit in square brackets
     minimum: float | None = None
     maximum: float | None = None
-    choices: tuple[str, ...] = ()
+    choices: Collection[str] = ()
     settable: bool = False  # while the node runs; the others are read at the start
 
 
@@ -36,7 +37,7 @@ def parameter(
     *,
     minimum: float | None = None,
     maximum: float | None = None,
-    choices: tuple[str, ...] = (),
+    choices: Collection[str] = (),
     settable: bool = False,
 ) -> Any:
     """A dataclass field that is also a ROS parameter."""

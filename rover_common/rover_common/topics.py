@@ -15,16 +15,20 @@ VISION_IMAGE = "vision_image"  # sensor_msgs/Image, rgb8
 BIRDSEYE_IMAGE = "birdseye_image"  # sensor_msgs/Image, rgb8, the same seen from above
 BRIDGE_STATE = "bridge_state"  # std_msgs/String, latched: connected or disconnected
 COMMAND = "cmd_drive"  # rover_interfaces/DriveCommand
+DRIVER = "driver"  # std_msgs/String, latched: manual, cmd_vel, decision or nobody
 MISSION_STATE = "mission_state"  # rover_interfaces/MissionState, latched
 PLAN = "plan"  # nav_msgs/Path
 MISSION_MARKERS = "mission_markers"  # visualization_msgs/MarkerArray
+
+# Velocities, geometry_msgs/Twist or TwistStamped; the second robot has no other command
+CMD_VEL = "cmd_vel"
+CMD_VEL_TELEOP = "cmd_vel_teleop"  # of a person, whom the first robot obeys before all others
 
 # Of the second robot
 SCAN = "scan"  # sensor_msgs/LaserScan
 IMU = "imu"  # sensor_msgs/Imu
 TEMPERATURE_1 = "temperature_sensor_1"  # std_msgs/Float32MultiArray, 64 values row by row
 TEMPERATURE_2 = "temperature_sensor_2"  # the same
-CMD_VEL = "cmd_vel"  # geometry_msgs/TwistStamped or Twist
 FLYWHEEL = "flywheel"  # std_msgs/Int32, a number above 0 begins a sequence
 FLYWHEEL_STATUS = "flywheel_status"  # std_msgs/String, when a sequence has ended
 SENSOR_TICK = "sensor_tick"  # rover_interfaces/SensorTick, in lockstep

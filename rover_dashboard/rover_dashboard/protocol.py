@@ -133,7 +133,7 @@ def settings_message() -> str:
             "description": info.description,
             "minimum": info.minimum,
             "maximum": info.maximum,
-            "choices": info.choices,
+            "choices": list(info.choices),
         }
         for name, info in SETTABLE.items()
     }

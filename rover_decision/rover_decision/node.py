@@ -30,6 +30,7 @@ from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from rover_common import nodes, topics
+from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
@@ -112,8 +113,12 @@ class DecisionNode(Node):
 
     def _on_config(self, config: DecisionConfig) -> None:
         self._config = config
-        configure(self._core, config)
-        self.get_logger().info(f"parameters: {config}")
+        try:
+            configure(self._core, config)
+        except RoverError as error:  # of an explorer that cannot be imported
+            self.get_logger().error(f"the mission goes on as before: {error}")
+        else:
+            self.get_logger().info(f"parameters: {config}")
 
     def _on_request(
         self, request: Request, _: Trigger.Request, response: Trigger.Response

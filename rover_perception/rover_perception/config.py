@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from rover_common.config import STATE_DIR, parameter
 from rover_common.errors import RoverError
 from rover_common.grid import WORLD
+from rover_perception.recipe_names import RECIPES
 
 
 class ResolutionError(RoverError, ValueError):
@@ -49,8 +50,9 @@ class PerceptionConfig:
     )
     recipe: str = parameter(
         "exact",
-        "how images become a map: exact, or baseline as published programs do it",
-        choices=("exact", "baseline"),
+        "how images become a map: exact, baseline as published programs do it, or one of an"
+        " installed package",
+        choices=RECIPES,
     )
     baseline_range: float = parameter(
         5.0, "[m] ground beyond is not mapped by the baseline", minimum=1.0, maximum=30.0

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.geometry import Pose
 from rover_common.saved_state import Memory
 from rover_common.types import CameraFrame, GridMap, PerceptionResult, Run
-from rover_perception.baseline.perception import BaselinePerception
 from rover_perception.config import PerceptionConfig
-from rover_perception.perception import Perception
+from rover_perception.recipe_names import RECIPES
 
 
 class Pipeline(Protocol):
@@ -40,6 +41,20 @@ class Pipeline(Protocol):
         """Go on with a run as it was saved; what is none raises and changes nothing."""
 
 
+@dataclass(frozen=True)
+class Recipe:
+    """What the parameter of this name chooses."""
+
+    pipeline: Callable[[PerceptionConfig], Pipeline]
+    # The first row that it reads of an image, by its pose; a simulation need not render those above
+    first_row: Callable[[Pose], int] = lambda pose: 0
+
+
+def recipe_of(name: str) -> Recipe:
+    """The one of this name; raises PartError."""
+    return RECIPES.load(name, Recipe)
+
+
 def make_perception(config: PerceptionConfig) -> Pipeline:
-    """The one that `recipe` names."""
-    return BaselinePerception(config) if config.recipe == "baseline" else Perception(config)
+    """The pipeline of the recipe that the parameters name; raises PartError."""
+    return recipe_of(config.recipe).pipeline(config)

@@ -10,7 +10,7 @@ import pytest
 from frames_by_hand import CONFIG
 from rough_missions import run_rough_mission
 
-from rover_decision.missions.sample_return import solutions
+from rover_decision.missions.sample_return import planned
 from rover_decision.missions.sample_return.chart import Event, State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.states import make_states
@@ -63,7 +63,7 @@ def test_questions_change_nothing_over_a_mission(monkeypatch, config):
         states = make_states(*arguments)
         return {state: AskedTwice(each, asked, state.name) for state, each in states.items()}
 
-    monkeypatch.setattr(solutions, "make_states", twice)
+    monkeypatch.setattr(planned, "make_states", twice)
     run_rough_mission(config, 80.0)
     visited = {name.split()[0] for name in asked}
     assert {"FORWARD", "PICKUP", "TILT", "STUCK", "HOLD", "PAUSED", "RETURN_HOME"} <= visited

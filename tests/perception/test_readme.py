@@ -34,7 +34,7 @@ def test_the_parameters_are_those_of_the_configuration():
     for row, field in zip(rows, declared, strict=True):
         info = field.metadata["parameter"]
         assert row["default"] == str(field.default), field.name
-        choices = ", ".join(info.choices)
+        choices = ", ".join(getattr(info.choices, "own", info.choices))
         limits = f"{info.minimum} to {info.maximum}"
         assert row["range"].replace("`", "") == (choices or limits), field.name
         if choices:

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from rover_bridge.codec import decode_telemetry
 from rover_common.geometry import Pose
+from rover_perception.recipes import first_row_read
 from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.simulation import Simulation
 from rover_simulator.world.generator import generate_world
 from rover_simulator.world.terrain import terrain_of
 from rover_simulator.world.world import World
-from rover_tools.evaluation.closed_loop import Loop, first_row_read
+from rover_tools.evaluation.closed_loop import Loop
 
 SEED = 7
 FRAMES = 50  # of 0.08 s: it turns, and drives off

@@ -161,3 +161,26 @@ def test_timed_each_command_is_answered_once_and_by_a_later_frame(peer_python, t
     assert times == sorted(times)
     pending = 3  # two telemetries and one command, all unasked
     assert all(later > earlier for earlier, later in zip(times, times[pending:], strict=False))
+
+
+def test_a_program_of_the_originals_time_drives_as_it_is(peer_python, tmp_path):
+    """Perception and decision step, answers as text, pictures for the screen, on old libraries."""
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = str(listener.getsockname()[1])
+    program = subprocess.Popen(
+        [peer_python, PEER / "drive_rover.py", port],
+        env=own_environment(), stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    simulator = [
+        sys.executable, "-m", "rover_simulator.main", "--port", port, "--seed", "1",
+        "--size", "0.4", "--rate", "fast", "--fps", "12.5", "--time-limit", "41", "--progress",
+        "--save-insets", str(tmp_path),
+    ]  # fmt: skip
+    with ended_after(program):
+        done = subprocess.run(simulator, capture_output=True, text=True, timeout=RUN_SECONDS)
+        assert program.poll() is None, program.stderr
+    assert done.returncode == 0, done.stderr
+    last = json.loads(done.stdout.splitlines()[-1])
+    assert last["time"] > 40.0  # [s] no telemetry was lost
+    assert last["distance"] > 20.0  # [m]
+    assert list(tmp_path.glob("*"))

@@ -1,6 +1,7 @@
 """Strategies by name, and from parameter files."""
 
 from dataclasses import fields
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -17,13 +18,15 @@ SHIPPED = Path(__file__).resolve().parents[2] / "rover_bringup" / "config" / "ro
 
 
 def test_a_name_and_back():
-    for explorer in choices("explorer"):
-        for way_home in choices("way_home"):
-            strategy = Strategy(explorer, way_home)
-            assert Strategy.parse(str(strategy)) == strategy
-            assert strategy.config().explorer == explorer
-            assert strategy.config().way_home == way_home
-    assert str(Strategy.parse("tour+breadcrumbs")) == "tour"
+    ways = choices(DecisionConfig, "way_home")
+    recipes = choices(PerceptionConfig, "recipe")
+    for each in product(choices(DecisionConfig, "explorer"), ways, recipes):
+        strategy = Strategy(*each)
+        assert Strategy.parse(str(strategy)) == strategy
+        config = strategy.config()
+        assert (config.explorer, config.way_home, strategy.perception().recipe) == each
+    assert str(Strategy.parse("tour+breadcrumbs@exact")) == "tour"
+    assert str(Strategy.parse("classic_b@exact")) == "classic_b@exact"
 
 
 @pytest.mark.parametrize(
@@ -51,7 +54,9 @@ def test_the_truth_is_for_those_that_know_it(tmp_path):
     assert Strategy().config(truth).truth == ""
 
 
-@pytest.mark.parametrize("text", ["", "dance", "tour+", "tour+dance", "+bearing"])
+@pytest.mark.parametrize(
+    "text", ["", "dance", "tour+", "tour+dance", "+bearing", "tour@", "tour@dance"]
+)
 def test_a_name_that_there_is_not(text):
     with pytest.raises(StrategyError, match="there are"):
         Strategy.parse(text)
@@ -102,7 +107,7 @@ def options_of(command: str, *arguments: str) -> MissionOptions:
 def test_a_mission_takes_a_strategy_by_either_name(command):
     for option in ("--explorer", "--strategy"):
         options = options_of(command, option, "classic_b+breadcrumbs")
-        assert options.chosen_strategy() == Strategy("classic_b", "breadcrumbs")
+        assert options.chosen_strategy() == Strategy("classic_b", "breadcrumbs", "baseline")
     assert options_of(command).chosen_strategy() == Strategy()
 
 

@@ -46,6 +46,24 @@ MADE = {name for name in OUT if not Path(name).suffix}  # folders that other exa
 QUICK = [words for words in LINES if words[0] in ("completion", "doctor")]
 
 
+# The parts that docs/your_own_part.md makes, by the groups of their entry points
+TUTORIAL = {
+    "rover.explorers": "my_explorer = rover_decision.missions.sample_return.explorer:TOUR",
+    "rover.recipes": "my_perception = rover_perception.recipes:BASELINE",
+}
+
+
+@pytest.fixture(autouse=True)
+def tutorial(tmp_path, monkeypatch):
+    """An environment in which the parts of the tutorial are installed."""
+    info = tmp_path / "tutorial-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: tutorial\nVersion: 1.0\n")
+    groups = [f"[{group}]\n{entry}\n" for group, entry in TUTORIAL.items()]
+    (info / "entry_points.txt").write_text("".join(groups))
+    monkeypatch.syspath_prepend(str(tmp_path))
+
+
 def called(words: tuple[str, ...]) -> tuple[click.Command, list[str]]:
     """The command that the words call, and its arguments."""
     command: click.Command = rover

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 import yaml
 from readme_tables import ROOT
 
@@ -47,6 +48,20 @@ def test_each_topic_named_is_one_of_the_graph():
     named = [name for row in rows("State and results") for name in names_in(row[1])]
     assert len(named) >= 9
     assert set(named) <= {value for name, value in vars(topics).items() if name.isupper()}
+
+
+@pytest.mark.parametrize(
+    ("heading", "folder"),
+    [
+        ("perception_step()", "rover_perception/rover_perception"),
+        ("decision_step()", "rover_decision/rover_decision/missions/sample_return"),
+    ],
+)
+def test_each_module_named_is_there(heading, folder):
+    cells = [cell for row in rows(heading) for cell in row[1:]]
+    named = [name for cell in cells for name in names_in(cell) if name.endswith(".py")]
+    assert len(named) >= 12
+    assert [name for name in named if not (ROOT / folder / name).is_file()] == []
 
 
 def test_the_simulator_is_named_without_a_link():

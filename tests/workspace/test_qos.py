@@ -37,6 +37,8 @@ OF_THE_OTHER_ROBOT = {
         topics.TEMPERATURE_1, topics.TEMPERATURE_2,
     )
 }  # fmt: skip
+# These are of a person or of a navigator that somebody starts.
+OF_OTHERS = OF_THE_OTHER_ROBOT | {f"/{topics.CMD_VEL}", f"/{topics.CMD_VEL_TELEOP}"}
 # What rclpy itself adds to every node.
 OF_EVERY_NODE = {"/rosout", "/parameter_events"}
 RELIABILITY = {
@@ -117,7 +119,7 @@ def incompatible(publishers: tuple[Endpoint, ...], subscriptions: list[Endpoint]
     problems = []
     for subscription in subscriptions:
         pairs = [p for p in publishers if p.topic == subscription.topic]
-        if not pairs and subscription.topic not in OF_THE_OTHER_ROBOT:
+        if not pairs and subscription.topic not in OF_OTHERS:
             problems.append(f"{subscription.topic}: {subscription.node} has no publisher")
         for publisher in pairs:
             compatibility, reason = qos_check_compatible(publisher.profile, subscription.profile)

@@ -32,6 +32,8 @@ COMMON = ROOT / "rover_common" / "README.md"
 BRINGUP = ROOT / "rover_bringup" / "README.md"
 INTERFACES = ROOT / "rover_interfaces" / "README.md"
 LAUNCH = FOLDER / "mission.launch.py"
+# One participant of DDS has one type on a topic, and the second robot's velocities are stamped.
+OF_BRIDGE = {"port": 0, "enable_stamped_cmd_vel": True}
 NODES = {
     "burger": BurgerNode,
     "bridge": BridgeNode,
@@ -102,7 +104,7 @@ def test_the_topics_are_those_that_the_nodes_publish(ros):
     names = {name: value for name, value in vars(topics).items() if name.isupper()}
     assert {row["constant"]: row["topic"] for row in rows} == names
     for publisher, factory in NODES.items():
-        node: Node = ros.add(factory, **({"port": 0} if publisher == "bridge" else {}))
+        node: Node = ros.add(factory, **(OF_BRIDGE if publisher == "bridge" else {}))
         of_readme = {
             (row["topic"].lstrip("/"), row["type"], row["QoS"])
             for row in rows

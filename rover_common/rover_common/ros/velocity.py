@@ -25,9 +25,9 @@ class VelocityPublisher:
     the one that it sends already, else the stamped one.
     """
 
-    def __init__(self, node: Node, stamped: str) -> None:
+    def __init__(self, node: Node, stamped: str, topic: str = topics.CMD_VEL) -> None:
         """stamped: auto (as the subscriber has it), true or false."""
-        self._node = node
+        self._node, self._topic = node, topic
         self._publisher: Any = None
         if stamped == "auto":
             clock = Clock(clock_type=ClockType.STEADY_TIME)
@@ -50,7 +50,7 @@ class VelocityPublisher:
         self._publisher.publish(message)
 
     def _look(self) -> None:
-        infos = self._node.get_subscriptions_info_by_topic(topics.CMD_VEL)
+        infos = self._node.get_subscriptions_info_by_topic(self._topic)
         taken = {info.topic_type for info in infos}
         wanted = [kind for name, kind in KINDS.items() if name in taken]
         present = None if self._publisher is None else self._publisher.msg_type
@@ -60,5 +60,5 @@ class VelocityPublisher:
     def _publish_as(self, kind: type) -> None:
         if self._publisher is not None:
             self._node.destroy_publisher(self._publisher)
-        self._publisher = self._node.create_publisher(kind, topics.CMD_VEL, qos.CONTROL)
-        self._node.get_logger().info(f"{topics.CMD_VEL}: {kind.__name__}")
+        self._publisher = self._node.create_publisher(kind, self._topic, qos.CONTROL)
+        self._node.get_logger().info(f"{self._topic}: {kind.__name__}")

@@ -33,13 +33,19 @@ from rover_perception.polar import polar_array
 IMAGE_LAG = 0  # these programs take an image for one of the pose that it comes with
 GROUND, OBSTACLE, ROCK = range(3)  # layers of the counts
 Points = tuple[NDArray[np.float64], NDArray[np.float64]]  # x, y [m]
+# Which pixels (height, width) of an image, or of its top view, (height, width, 3) RGB
+Mask = Callable[[NDArray[np.uint8]], NDArray[np.bool_]]
 
 
 class BaselinePerception:
     """Processes the frames of one run after another, in the order of their stamps."""
 
-    def __init__(self, config: PerceptionConfig) -> None:
+    def __init__(
+        self, config: PerceptionConfig, ground: Mask = ground_mask, rock: Mask = rock_mask
+    ) -> None:
+        """ground, rock: which pixels show them; what is in view and no ground is an obstacle."""
         self._config = config
+        self._ground_mask, self._rock_mask = ground, rock
         self._geometry = GridGeometry.of_world(config.map_resolution)
         self._begin(FIRST_RUN, self._no_counts(), RockList())
 
@@ -82,9 +88,9 @@ class BaselinePerception:
         pose = self._validator.validate(frame)
         self._image = frame.image
         view = top_view(frame.image)
-        ground = ground_mask(view)
+        ground = self._ground_mask(view)
         obstacle = ~ground & field_of_view()
-        points = [rover_points(mask) for mask in (ground, obstacle, rock_mask(view))]
+        points = [rover_points(mask) for mask in (ground, obstacle, self._rock_mask(view))]
         if max(abs(pose.pitch), abs(pose.roll)) < self._config.baseline_tilt:
             self._add(points, pose, frame.stamp)
         return PerceptionResult(
@@ -118,19 +124,19 @@ class BaselinePerception:
         """The newest camera image (height, width, 3) RGB, painted by the thresholds."""
         if self._image is None:
             return None
-        ground = ground_mask(self._image)
+        ground = self._ground_mask(self._image)
         ground[:FIRST_ROW] = False
         obstacle = ~ground
         obstacle[:FIRST_ROW] = False
-        return paint(self._image, ground, obstacle, rock_mask(self._image))
+        return paint(self._image, ground, obstacle, self._rock_mask(self._image))
 
     def birdseye_image(self) -> NDArray[np.uint8] | None:
         """The newest image's top view (height, width, 3) RGB, coloured by the thresholds."""
         if self._image is None:
             return None
         view = top_view(self._image)
-        ground = ground_mask(view)
-        return colored(ground, ~ground & field_of_view(), rock_mask(view))
+        ground = self._ground_mask(view)
+        return colored(ground, ~ground & field_of_view(), self._rock_mask(view))
 
     def _add(self, points: list[Points], pose: Pose, stamp: int) -> None:
         """Count the points that are near enough in the cells of the map."""

@@ -16,6 +16,7 @@ TABLE = {
     "demo": Entry(f"{COMMANDS}.demo", "a whole mission in a small generated canyon, scored"),
     "mission": Entry(f"{COMMANDS}.mission", "one mission in the embedded simulator, to its end"),
     "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
+    "drive": Entry(f"{COMMANDS}.drive", "drive by the keys of the terminal, and record it"),
     "record": Entry(f"{COMMANDS}.record", "all topics of the running graph, into an MCAP file"),
     "report": Entry(f"{COMMANDS}.report", "report, video and track of a recorded mission"),
     "replay": Entry(f"{COMMANDS}.replay", "play a recorded run again, and score the map"),
@@ -23,6 +24,7 @@ TABLE = {
     "map": Entry(f"{COMMANDS}.map", "the world map of the running graph, without ros2"),
     "explain": Entry(f"{COMMANDS}.explain", "perception's stages on one image, as a picture"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
+    "new": Entry(f"{COMMANDS}.new", "a package with an explorer or a perception of your own"),
     "heat": Entry(
         "rover_tools.cli.heat.group", "the second robot's mission: demo, mission, scoreboard, sim"
     ),

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-SYNTAX = "EXPLORER or EXPLORER+WAY_HOME, as in tour or frontier+bearing"
+SYNTAX = "EXPLORER[+WAY_HOME][@RECIPE], as in tour or frontier+bearing@baseline"
 FILE_OR_FOLDER = click.Path(exists=True, path_type=Path)
 MOST_SEEDS = 10_000  # in one range; more is a slip of the keyboard
 

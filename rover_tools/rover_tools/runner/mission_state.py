@@ -36,6 +36,7 @@ class MissionSetup:
     fps: float
     explorer: str
     way_home: str
+    recipe: str
     whole: bool  # whether what comes with the strategy's name is set too
     parameters: str | None  # path of a file
 
@@ -44,12 +45,12 @@ class MissionSetup:
         cls, seed: int, time_limit: float, fps: float, strategy: Strategy, parameters: Path | None
     ) -> MissionSetup:
         file = None if parameters is None else str(parameters.resolve())
-        chosen = strategy.explorer, strategy.way_home, strategy.whole
+        chosen = strategy.explorer, strategy.way_home, strategy.recipe, strategy.whole
         return cls(seed, time_limit, fps, *chosen, file)
 
     @property
     def strategy(self) -> Strategy:
-        return Strategy(self.explorer, self.way_home, self.whole)
+        return Strategy(self.explorer, self.way_home, self.recipe, self.whole)
 
     @property
     def parameters_file(self) -> Path | None:

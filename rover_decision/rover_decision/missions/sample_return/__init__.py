@@ -10,20 +10,19 @@ from rover_common.saved_state import Memory
 from rover_common.types import Run
 from rover_decision.core import DecisionCore
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_decision.missions.sample_return.explorers import SELECTIONS
+from rover_decision.missions.sample_return.explorer import explorer_of
 from rover_decision.missions.sample_return.mission import SampleReturnMission
 from rover_decision.missions.sample_return.rover_scale import ROVER_SCALE
 from rover_decision.types import Decision, Frame, Overlay
 from rover_navigation.planner import Planner
-from rover_navigation.selection import WholeTour
 from rover_navigation.types import Plan
 
 SampleReturnCore = DecisionCore[Frame, Decision, Plan, Overlay]
 
 
 def make_planner(config: DecisionConfig) -> Planner:
-    """The planner that the parameters name; raises TruthError for a truth that cannot be read."""
-    selection = SELECTIONS.get(config.explorer, WholeTour)
+    """The planner that the parameters name; raises PartError or TruthError."""
+    selection = explorer_of(config.explorer).selection
     truth = load_truth(Path(config.truth)) if config.truth else None
     return Planner(ROVER_SCALE, selection(ROVER_SCALE), truth)
 

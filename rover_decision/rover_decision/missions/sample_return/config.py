@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rover_common.config import STATE_DIR, parameter
+from rover_decision.missions.sample_return.explorer_names import EXPLORERS
 
 
 @dataclass(frozen=True)
 class DecisionConfig:
     explorer: str = parameter(
         "tour",
-        "how to explore: tour, frontier, classic_a or classic_b",
-        choices=("tour", "frontier", "classic_a", "classic_b"),
+        "how to explore: tour, frontier, classic_a, classic_b, or one of an installed package",
+        choices=EXPLORERS,
         settable=True,
     )
     way_home: str = parameter(

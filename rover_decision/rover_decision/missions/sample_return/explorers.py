@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from rover_navigation.actuation import Actuation, approach_speed
 from rover_navigation.local_clearance import LocalClearance
 from rover_navigation.path_tracking import PathTracker
 from rover_navigation.scale import Scale
-from rover_navigation.selection import NearestStop, Selection, WholeTour
 from rover_navigation.types import GoalKind
 
 PATH_AHEAD = math.radians(12.0)  # a path this near to straight ahead can be driven into
@@ -129,6 +127,3 @@ class PlanExplorer:
     def _has_clearance(self, local: LocalClearance, bearing: float) -> bool:
         """Whether there is enough free ground to set out in this direction [rad]."""
         return local.clearance(bearing) > self._clearance_to_go
-
-
-SELECTIONS: dict[str, Callable[[Scale], Selection]] = {"tour": WholeTour, "frontier": NearestStop}

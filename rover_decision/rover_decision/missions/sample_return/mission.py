@@ -13,9 +13,9 @@ from rover_common.types import SAFE_COMMAND
 from rover_decision.missions.sample_return.chart import Event, Machine, State
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.drivers import Drivers
+from rover_decision.missions.sample_return.explorer import explorer_of
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.solution import Solution
-from rover_decision.missions.sample_return.solutions import kind_of, make_solution
 from rover_decision.missions.sample_return.tick import StateBehavior, TickContext
 from rover_decision.types import Decision, Frame, Overlay, Request
 from rover_navigation.monitors import CIRCLE_SPEED
@@ -39,7 +39,7 @@ class SampleReturnMission:
         self._return_requested = False  # to be done when what goes on has come to its end
         self._parts = Parts.of(config)
         self._drivers = Drivers(self._parts.actuation, self._parts.scale, config)
-        self._run_solution(make_solution(config, self._parts, self._drivers))
+        self._run_solution(self._make_solution(config))
         self._tick: TickContext | None = None  # the newest
 
     @property
@@ -146,7 +146,7 @@ class SampleReturnMission:
         self.limit_time(float(mission["time_limit"] or 0.0))
         self._recoveries_before = int(mission["recoveries"])
         self._return_requested = bool(mission["return_requested"])
-        self._run_solution(make_solution(self._config, self._parts, self._drivers))
+        self._run_solution(self._make_solution(self._config))
         self._machine.enter([Event[name] for name in mission["phase"]])
 
     def overlay(self) -> Overlay:
@@ -158,6 +158,9 @@ class SampleReturnMission:
         if self._machine.heading_home:
             path = parts.home_paths.method.path(tick.plan, tick.pose)
         return Overlay(parts.breadcrumbs.points, parts.blocked.places, tick.plan, path)
+
+    def _make_solution(self, config: DecisionConfig) -> Solution:
+        return explorer_of(config.explorer).solution(config, self._parts, self._drivers)
 
     def _run_solution(self, solution: Solution) -> None:
         """From its beginning: the next frame starts it."""
@@ -177,7 +180,8 @@ class SampleReturnMission:
             return
         self._new_config = None
         self._drivers.configure(new)
-        if kind_of(new) != kind_of(self._config) and not self.over:
+        same = explorer_of(new.explorer).solution is explorer_of(self._config.explorer).solution
+        if not same and not self.over:
             self._change_solution(new)
         if new.way_home != self._config.way_home:
             self._parts.home_paths.prefer(new.way_home, time)
@@ -187,7 +191,7 @@ class SampleReturnMission:
         """Go on with another one, in the phase at hand, and paused if that it is."""
         before = self._machine.phase
         self._recoveries_before = self._recoveries
-        self._run_solution(make_solution(config, self._parts, self._drivers))
+        self._run_solution(self._make_solution(config))
         self._machine.enter(before)
 
     @property

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from statemachine import StateChart
 
 from rover_common.vehicle import ROVER
@@ -14,6 +16,7 @@ from rover_decision.missions.sample_return.classic.commands import stop
 from rover_decision.missions.sample_return.classic.homing import Homing
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.drivers import Drivers
+from rover_decision.missions.sample_return.explorer import Explorer, Preset
 from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.solution import Solution
 from rover_decision.missions.sample_return.states.pickup import Pickup
@@ -61,3 +64,20 @@ def _solution(
     }
     everything = states | standing
     return Solution(chart, everything, memory.observe, memory.commanded, breadcrumb_path=False)
+
+
+NO_TIME_LIMIT = 36000.0  # [s] the documents know none
+COUNTED: dict[str, Any] = {"nav_cell": 0.1, "time_limit": NO_TIME_LIMIT}  # in the baseline's cells
+BASELINE: dict[str, Any] = {"recipe": "baseline"}
+# A maps every frame, and all of it: without the range and the tilt limit that B has.
+UNLIMITED: dict[str, Any] = {"baseline_range": 30.0, "baseline_tilt": 1.6}
+CLASSIC_A = Explorer(
+    solution=classic_a,
+    preset=Preset(
+        "breadcrumbs",
+        COUNTED | {"complete_at": 0.98, "complete_rule": "any"},
+        BASELINE | UNLIMITED,
+        knows_truth=True,
+    ),
+)
+CLASSIC_B = Explorer(solution=classic_b, preset=Preset("bearing", COUNTED, BASELINE))

@@ -1,0 +1,1 @@
+"""Skeletons of parts that a package of its own adds to the rover."""
