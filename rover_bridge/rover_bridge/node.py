@@ -164,7 +164,7 @@ class BridgeNode(Node):
             return
         if anew:
             self._activate(client, now)
-        tracked = self._runs.track(telemetry, clock_time)
+        tracked = self._runs.track(telemetry, clock_time, self._telemetry_clock.jump_confirmed)
         if tracked is None:
             self._drop(client, now, Counter.UNCONFIRMED, self._runs.contradiction)
             return

@@ -35,9 +35,11 @@ class KeptRuns:
         """As RunTracker.request."""
         self._tracker.request(number)
 
-    def track(self, telemetry: Telemetry, time: float) -> tuple[Run, int] | None:
+    def track(
+        self, telemetry: Telemetry, time: float, jump_confirmed: bool = False
+    ) -> tuple[Run, int] | None:
         """As RunTracker.track."""
-        tracked = self._tracker.track(telemetry, time)
+        tracked = self._tracker.track(telemetry, time, jump_confirmed)
         if tracked is not None:
             run, stamp = tracked
             self._state.keep(self._snapshot, at_once=run.start == stamp)

@@ -100,13 +100,16 @@ class RunTracker:
         if self._run is not None and number == self._run.number:
             self._requested = True
 
-    def track(self, telemetry: Telemetry, time: float) -> tuple[Run, int] | None:
+    def track(
+        self, telemetry: Telemetry, time: float, jump_confirmed: bool = False
+    ) -> tuple[Run, int] | None:
         """The run of a telemetry, and its stamp [ns]: unique, and later than the one before.
 
         None for one that contradicts those before, until as many as AGREEING do so alike; it
         belongs to no run. `time` [s] is the simulator's clock, or the wall's where the telemetry
         has no sim_time. It is the stamp as long as it does not fall back; a later run continues
-        after the stamps before.
+        after the stamps before. jump_confirmed: telemetries in a row have shown already that the
+        clock is another one.
         """
         observed = Observed.of(telemetry, time)
         if self._last is None:
@@ -115,7 +118,7 @@ class RunTracker:
             self._begin(observed, "a command asked for it")
         elif self._resumed and (reason := self._another_simulator(observed, self._last)):
             self._begin(observed, reason)
-        elif not self._confirms(observed, self._last):
+        elif not self._confirms(observed, self._last, jump_confirmed):
             return None
         else:
             reason = observed.breaks_with(self._last)
@@ -169,10 +172,10 @@ class RunTracker:
             return "the rover stands where the last run began"
         return ""
 
-    def _confirms(self, observed: Observed, last: Observed) -> bool:
+    def _confirms(self, observed: Observed, last: Observed, jump_confirmed: bool) -> bool:
         """Whether it follows the last one, or agrees with enough others that do not."""
         self.contradiction = _contradiction(observed, last)
-        if not self.contradiction:
+        if not self.contradiction or (jump_confirmed and observed.breaks_with(last)):
             return True
         if self._unconfirmed and not observed.follows(self._unconfirmed[-1]):
             self._unconfirmed = []

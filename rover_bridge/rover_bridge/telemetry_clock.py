@@ -47,6 +47,7 @@ class TelemetryClock:
         self._suspect: _Reading | None = None  # the newest one of a clock that jumped
         self._jumped_to = 0.0  # [s] the first one
         self._confirmations = 0
+        self.jump_confirmed = False  # by the telemetry that was read last
 
     def read(self, sim_time: float | None, now: float, anew: bool = False) -> float:
         """The time [s] of a telemetry that came now; anew: the first one of another connection.
@@ -60,8 +61,9 @@ class TelemetryClock:
             self._wall_offset + now if sim_time is None else sim_time, simulated, now
         )
         last, error = self._last, self._jump(reading)
+        self.jump_confirmed = error is not None and self._confirmed(reading)
         if error is not None:
-            if not (self._confirmed(reading) or anew):
+            if not (self.jump_confirmed or anew):
                 raise error
             self._continue(reading)
         elif last is not None and reading.time <= last.time:

@@ -194,5 +194,6 @@ def test_a_reset_of_the_scene_begins_run_2_in_every_node(ros, world):
     reports = [report for report in messages[topics.MISSION_STATE] if report.run == 2]
     assert (reports[0].elapsed, reports[0].distance) == (pytest.approx(0.0, abs=0.1), 0.0)
     assert (len(first), len(answers)) == (40, 26)
-    assert second == first[:25]  # it drives as it did
+    refused = sum("refused" in data for _, data in answers)  # until the clock is confirmed
+    assert second[refused:] == first[: 25 - refused]  # it drives as it did
     assert second[-1] != second[0]

@@ -66,6 +66,7 @@ def over_the_wire(folder: Path) -> list[dict[str, str]]:
     command = [
         sys.executable, "-m", "rover_simulator.main", "--port", str(server.port),
         "--world", folder, "--seed", str(SEED), "--rate", "fast", "--fps", str(FPS),
+        "--dead-man", "0",  # the script is silent for longer
     ]  # fmt: skip
     process = subprocess.Popen(command)
     try:
