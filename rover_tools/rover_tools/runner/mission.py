@@ -59,7 +59,6 @@ def run_mission(
     overrides = OVERRIDES | strategy.parameters(folder.resolve() / "world" / MAP_NAME)
     start = time.monotonic()
     with running_graph(folder, overrides, parameters) as run:
-        run.processes.respawn(NODES)
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
@@ -71,14 +70,12 @@ def run_mission(
             stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
             grid = run.watch.wait_map(stamp, MAP_SECONDS)
             rocks = run.watch.rocks()
-        remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
-    if remarks:
-        result["remarks"] = remarks
+    result |= run.processes.remarks()
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     if record:
         _report(folder, world, result)
@@ -103,7 +100,11 @@ def _simulator_command(run: Run, seed: int, fps: float, time_limit: float) -> li
 
 
 def _watch(run: Run, time_limit: float) -> bool:
-    """Wait for the mission's end, and show its progress; whether the rover is home."""
+    """Wait for the mission's end, and show its progress; whether the rover is home.
+
+    Nodes that end meanwhile are started again.
+    """
+    run.processes.respawn(NODES)
     with Progress(time_limit, "s") as progress:
         while True:
             mission = run.watch.mission
