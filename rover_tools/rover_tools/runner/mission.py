@@ -64,29 +64,23 @@ def run_mission(
     mission_state.prepare(folder, setup, resume)
     start = time.monotonic()
     with running_graph(folder, _overrides(folder, strategy), parameters) as run:
-        _respawn_and_show(run, parameters, page, open_page)
+        if page:
+            start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
             run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
             done = _watch(run, time_limit)
             measured, grid = _measured(run)
             mission, rocks = run.watch.mission, run.watch.rocks()
-        remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=mission and mission.recoveries, wall_seconds=time.monotonic() - start,
     )  # fmt: skip
-    result |= {"remarks": remarks} if remarks else {}
+    result |= run.processes.remarks()
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     mission_state.end(folder)
     if record:
         _report(folder, world, result)
     return result
-
-
-def _respawn_and_show(run: Run, parameters: Path | None, page: bool, open_page: bool) -> None:
-    run.processes.respawn(NODES)
-    if page:
-        start_page(run, parameters or default_parameters(), open_page)
 
 
 def _measured(run: Run) -> tuple[MissionRun, GridMap | None]:
@@ -126,7 +120,11 @@ def _simulator_command(run: Run, seed: int, fps: float, time_limit: float) -> li
 
 
 def _watch(run: Run, time_limit: float) -> bool:
-    """Wait for the mission's end, and show its progress; whether the rover is home."""
+    """Wait for the mission's end, and show its progress; whether the rover is home.
+
+    Nodes that end meanwhile are started again.
+    """
+    run.processes.respawn(NODES)
     with Progress(time_limit, "s") as progress:
         while True:
             mission = run.watch.mission
