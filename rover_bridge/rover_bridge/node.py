@@ -14,7 +14,6 @@ from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rover_interfaces.msg import DriveCommand
 from std_msgs.msg import String
 
@@ -41,7 +40,8 @@ from rover_bridge.transport import (
 from rover_common import topics
 from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
-from rover_common.ros.conversions import NANOSECONDS, command_of
+from rover_common.ros.checked_node import CheckedNode
+from rover_common.ros.conversions import NANOSECONDS, command_of, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
@@ -52,7 +52,7 @@ CHECKS_PER_DEADLINE = 4
 EVENTS_PER_TURN = 4  # taken from the inbox before commands and deadlines have their turn
 
 
-class BridgeNode(Node):
+class BridgeNode(CheckedNode):
     """Turns server events into topics, and commands into answers, in the executor's thread."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -103,7 +103,7 @@ class BridgeNode(Node):
         self._topics = TelemetryPublishers(self, self._now())
         self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
         command = self.create_subscription(
-            DriveCommand, topics.COMMAND, self._on_command, qos.FRAME
+            DriveCommand, topics.COMMAND, self._on_command, qos.FRAME, refused=self._on_refused
         )
         self._diagnostics = NodeDiagnostics(self, self._topics.peers(command))
 
@@ -195,6 +195,12 @@ class BridgeNode(Node):
         if answer.counter == Counter.PICKUP_REFUSED:
             self._warn(answer.counter, "pickup refused: no sample in reach, or not standing still")
         self._send(answer)
+
+    def _on_refused(self, message: DriveCommand) -> None:
+        """A command that cannot be used is the safe brake, and not as late as the deadline."""
+        answer = self._requests.answer(stamp_of(message.frame_stamp), SAFE_COMMAND)
+        if answer is not None:
+            self._send(answer)
 
     def _check_deadlines(self) -> None:
         for answer in self._requests.expire(time.monotonic()):

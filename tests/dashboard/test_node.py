@@ -136,8 +136,10 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
 
 
 def test_an_image_that_cannot_be_shown_is_left_out(dashboard):
-    dashboard._on_message(topics.VISION_IMAGE, Image(encoding="mono8"))
+    (vision,) = [s for s in dashboard._views if s.topic_name == f"/{topics.VISION_IMAGE}"]
+    vision.callback(Image(encoding="mono16"))
     assert dashboard.slots.get("vision") is None
+    assert dashboard.counts[f"refused_{topics.VISION_IMAGE}_encoding"] == 1
 
 
 @pytest.fixture

@@ -21,11 +21,13 @@ class NodeDiagnostics:
 
     `peers` maps a peer's name to a function that tells whether it is connected; until all are, the
     level is WARN. `counts` is the node's own: count events with `diagnostics.counts["name"] += 1`.
-    Other troubles are set by name, and taken away with an empty text.
+    It is that of a CheckedNode, with what it refused. Other troubles are set by name, and taken
+    away with an empty text.
     """
 
     def __init__(self, node: Node, peers: Mapping[str, Callable[[], bool]]) -> None:
-        self.counts: Counter[str] = Counter()
+        own: Counter[str] | None = getattr(node, "counts", None)  # of a CheckedNode
+        self.counts = Counter[str]() if own is None else own
         self._node = node
         self._peers = dict(peers)
         self._level: Any = None
