@@ -84,7 +84,9 @@ class InsetDrawer:
     All methods but those of the thread are called in the bridge's thread and return at once.
     """
 
-    def __init__(self, bridge: CheckedNode, config: BridgeConfig, truth: NDArray[np.bool_] | None) -> None:
+    def __init__(
+        self, bridge: CheckedNode, config: BridgeConfig, truth: NDArray[np.bool_] | None
+    ) -> None:
         self._bridge = bridge
         self._mode, self._period, self._truth = config.insets, config.inset_period, truth
         self._client: str | None = None  # the active client, if it shows insets
