@@ -23,13 +23,13 @@ def test_a_good_message_of_every_type_is_taken(kind):
     assert read(GOOD[kind])
 
 
-@fuzzed(CASES * len(KINDS) // 4)
+@fuzzed(CASES * 0.4)
 @given(st.sampled_from(KINDS).flatmap(changed))
 def test_a_message_is_taken_with_finite_numbers_or_refused_with_a_reason(message):
     read(message)
 
 
-@fuzzed()
+@fuzzed(CASES * 0.05)
 @given(st.integers(0, 6), st.integers(0, 6), st.integers(0, 40))
 def test_a_map_that_does_not_hold_what_it_says_is_refused(width, height, cells):
     grid = OccupancyGrid(data=GOOD[OccupancyGrid].data[:cells])
@@ -37,7 +37,7 @@ def test_a_map_that_does_not_hold_what_it_says_is_refused(width, height, cells):
     assert read(grid) == (0 < width * height == cells)
 
 
-@fuzzed()
+@fuzzed(CASES * 0.05)
 @given(*[st.floats(-2.0, 2.0)] * 4)
 def test_a_quaternion_is_taken_as_the_rotation_that_it_is_or_refused(x, y, z, w):
     message = Odometry(header=GOOD[Odometry].header)

@@ -101,7 +101,7 @@ def test_hostile_messages_end_no_node_and_refused_ones_change_nothing(node):
 
     @fuzzed(SEQUENCES)
     @given(st.data())
-    def tick(data: Any) -> None:
+    def node_case(data: Any) -> None:
         now[0] += STEP
         for each in clock:
             each.callback(Clock(clock=time_of(now[0])))
@@ -114,7 +114,7 @@ def test_hostile_messages_end_no_node_and_refused_ones_change_nothing(node):
         for timer in list(node.timers):
             timer.callback()
 
-    tick()
+    node_case()
 
 
 def test_good_messages_are_all_taken(node):
