@@ -12,7 +12,7 @@ ASIDE = (
     "rover_common.ros.diagnostics", "rover_common.ros.endpoint_watch", "rover_bridge.server",
     "rover_common.ros.checked_node", "rover_bridge.inbox",
 )  # fmt: skip
-NAMES_ASIDE = ("counts", "_said", "_warned", "_orders")
+NAMES_ASIDE = ("counts", "_last_lines", "_warned", "_orders")
 
 
 def snapshot(value: Any, seen: frozenset[int] = frozenset()) -> Any:

@@ -23,7 +23,7 @@ def test_a_good_message_of_every_type_is_taken(kind):
     assert read(GOOD[kind])
 
 
-@fuzzed(CASES * 0.4)
+@fuzzed(CASES * 0.3)
 @given(st.sampled_from(KINDS).flatmap(changed))
 def test_a_message_is_taken_with_finite_numbers_or_refused_with_a_reason(message):
     read(message)

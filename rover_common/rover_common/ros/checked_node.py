@@ -30,7 +30,7 @@ class CheckedNode(Node):
     def __init__(self, name: str, **kwargs: Any) -> None:
         self.counts: Counter[str] = Counter()  # before rclpy subscribes /clock
         self._frame_ids: dict[str, str] = {}
-        self._said: dict[str, float] = {}  # [s] of wall time of the last line
+        self._last_lines: dict[str, float] = {}  # [s] of wall time of the last line
         super().__init__(name, **kwargs)
 
     def expect_frames(self, frame_ids: Mapping[str, str]) -> None:
@@ -88,10 +88,10 @@ class CheckedNode(Node):
 
     def _may_say(self, key: str) -> bool:
         now = time.monotonic()
-        last = self._said.get(key)
+        last = self._last_lines.get(key)
         if last is not None and now - last < SAID_AGAIN:
             return False
-        self._said[key] = now
+        self._last_lines[key] = now
         return True
 
 

@@ -48,8 +48,8 @@ from rover_common.ros.check_values import (
 )
 from rover_common.ros.message_errors import RangeError, SizeError
 
-MOST_CELLS = 25_000_000  # of a map
-FINEST, COARSEST = 1e-3, 100.0  # [m] edge of a map's cell
+MOST_CELLS = 16_000_000  # of a map
+FINEST, COARSEST = 0.01, 10.0  # [m] edge of a map's cell
 TURNED = 1e-3  # of a map's origin: its quaternion's x, y and z, for maps here lie along the axes
 MOST_POINTS = 1_000_000
 MOST_ITEMS = 10_000  # markers, poses
