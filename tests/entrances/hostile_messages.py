@@ -40,6 +40,7 @@ from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.sensor_checks import JPEG_BEGIN
 
 STAMP = 5_000_000_000  # [ns]
+BEGIN = 10_000_000_000  # [ns] of a clock, after it
 HERE = Pose(100.0, 85.0, 0.7)
 FLOATS = (
     math.nan, math.inf, -math.inf, 0.0, -0.0, 1e-30, 0.5, -0.5, 1.0, -1.0, 3.0, 7.5, 100.0,
