@@ -1,4 +1,4 @@
-"""Every message is taken or refused; none raises, and none is believed for what it is not."""
+"""Every message is taken as what it is, or refused; none raises anything else."""
 
 from __future__ import annotations
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -26,6 +28,7 @@ from rover_navigation.node import NavigatorNode
 from rover_perception.node import PerceptionNode
 from rover_recorder.node import RecorderNode
 
+ROOT = Path(__file__).resolve().parents[2]
 STEP = 50_000_000  # [ns]
 AWAY = st.sampled_from([0, 0, 0, 0, -STEP, -BEGIN, 3 * STEP, 3600 * BEGIN])  # [ns] of a stamp
 CHANGES = st.sampled_from([0, 0, 0, 1, 2])  # values changed of a message
@@ -72,6 +75,16 @@ def test_every_subscription_of_the_recorder_has_an_entrance(ros, tmp_path):
 
     assert ros.spin_until(found)
     assert all(isinstance(each.callback, Entrance) for each in found())
+
+
+def test_no_node_of_the_programs_is_a_plain_one():
+    for path in ROOT.glob("*/*/**/*.py"):
+        if path.is_relative_to(ROOT / "tests") or path.name == "checked_node.py":
+            continue
+        for each in ast.walk(ast.parse(path.read_text())):
+            bases = each.bases if isinstance(each, ast.ClassDef) else []
+            names = [each.func] if isinstance(each, ast.Call) else bases
+            assert not [n for n in names if isinstance(n, ast.Name) and n.id == "Node"], path
 
 
 def heard_types(node: Any) -> list[tuple[Any, Any]]:

@@ -80,7 +80,7 @@ def check_odometry(message: Odometry) -> None:
 
 
 def check_path(message: Path) -> None:
-    """Nothing turns by the poses of a path: their rotations are not looked at."""
+    """Nothing turns by the poses of a path: their rotations are not checked."""
     check_header(message.header)
     check_count("poses", message.poses, MOST_ITEMS)
     for pose in message.poses:
