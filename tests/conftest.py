@@ -77,6 +77,11 @@ class Ros:
             self.executor.spin_once(timeout_sec=min(left, 0.05))
         return True
 
+    def failures(self) -> list[str]:
+        """What the nodes could not handle, which the executor does not raise."""
+        counts = [getattr(node, "counts", {}) for node in self.nodes]
+        return [key for each in counts for key in each if key.startswith("failed_")]
+
     def close(self) -> None:
         for node in reversed(self.nodes):
             self.executor.remove_node(node)
@@ -113,7 +118,9 @@ def domain_id() -> Iterator[int]:
 def ros(domain_id: int) -> Iterator[Ros]:
     ros = Ros(domain_id)
     yield ros
+    failures = ros.failures()
     ros.close()
+    assert not failures
 
 
 @pytest.fixture

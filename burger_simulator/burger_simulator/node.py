@@ -18,7 +18,6 @@ from geometry_msgs.msg import Twist as TwistMsg
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
 from rosgraph_msgs.msg import Clock as ClockMsg
 from rover_interfaces.msg import SensorTick
 from sensor_msgs.msg import Imu, LaserScan
@@ -35,6 +34,7 @@ from rover_common import nodes, topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
@@ -50,7 +50,7 @@ LOOK, LOOK_FAST = 0.005, 0.0005  # [s] of wall time between two looks whether a 
 DRIVER, MISSION, LAUNCH = "driver", "mission", "flywheel"
 
 
-class BurgerNode(Node):
+class BurgerNode(CheckedNode):
     """Advances the simulation by the wall clock, or as its ticks are answered."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -101,9 +101,21 @@ class BurgerNode(Node):
         yaws = self._config.thermal_yaw_1, self._config.thermal_yaw_2
         self._tf_static.publish(conversions.static_transforms_of(START, yaws))
         self._driver = (
-            subscribe(TwistStamped, topics.CMD_VEL, self._on_stamped_twist, qos.CONTROL)
+            subscribe(
+                TwistStamped,
+                topics.CMD_VEL,
+                self._on_stamped_twist,
+                qos.CONTROL,
+                refused=lambda m: self._on_stamped_twist(TwistStamped(header=m.header)),
+            )
             if self._config.stamped_cmd_vel or self._config.lockstep
-            else subscribe(TwistMsg, topics.CMD_VEL, self._on_twist, qos.CONTROL)
+            else subscribe(
+                TwistMsg,
+                topics.CMD_VEL,
+                self._on_twist,
+                qos.CONTROL,
+                refused=lambda _: self._on_twist(TwistMsg()),
+            )
         )
         self._mission = subscribe(Header, topics.MISSION_TICK, self._on_mission, qos.CONTROL)
         subscribe(Int32, topics.FLYWHEEL, self._on_flywheel, qos.CONTROL)
@@ -188,12 +200,7 @@ class BurgerNode(Node):
         self._on_twist(message.twist)
 
     def _on_twist(self, message: TwistMsg) -> None:
-        twist = sensors.twist_of(message)
-        if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):
-            self._diagnostics.counts["velocities_refused"] += 1
-            self._warn("twist", "a velocity that is no finite number: standing")
-            twist = Twist()
-        self._twist = twist
+        self._twist = sensors.twist_of(message)
         self._proceed_in_lockstep()
 
     def _on_mission(self, message: Header) -> None:

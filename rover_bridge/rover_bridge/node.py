@@ -15,7 +15,6 @@ from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rover_interfaces.msg import DriveCommand
 from std_msgs.msg import String
 
@@ -39,7 +38,8 @@ from rover_bridge.trouble_log import TroubleLog
 from rover_common import nodes, topics
 from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
-from rover_common.ros.conversions import command_of
+from rover_common.ros.checked_node import CheckedNode
+from rover_common.ros.conversions import command_of, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
@@ -51,7 +51,7 @@ CHECKS_PER_DEADLINE = 10
 EVENTS_PER_TURN = 4  # taken from the inbox before commands and deadlines have their turn
 
 
-class BridgeNode(Node):
+class BridgeNode(CheckedNode):
     """Turns server events into topics, and commands into answers, in the executor's thread."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -79,11 +79,9 @@ class BridgeNode(Node):
         self.port = self._server.port
         self._make_endpoints(config.enable_stamped_cmd_vel)
         # Wall time: a deadline that waited for simulated time would never come.
-        self._deadline_timer = self.create_timer(
-            config.answer_deadline / CHECKS_PER_DEADLINE,
-            self._check_deadlines,
-            clock=Clock(clock_type=ClockType.STEADY_TIME),
-        )
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        period = config.answer_deadline / CHECKS_PER_DEADLINE
+        self._deadline_timer = self.create_timer(period, self._check_deadlines, clock=steady)
         self.get_logger().info(f"listening on {config.host}:{self.port}")
         self._publish_state()
 
@@ -97,7 +95,10 @@ class BridgeNode(Node):
     def _make_endpoints(self, stamped: bool) -> None:
         self._topics = TelemetryPublishers(self, int(self.get_clock().now().nanoseconds))
         self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
-        drive = self.create_subscription(DriveCommand, topics.COMMAND, self._on_command, qos.FRAME)
+        drive = self.create_subscription(  # what it cannot use brakes, and no later than the rest
+            DriveCommand, topics.COMMAND, self._on_command, qos.FRAME,
+            refused=lambda message: self._answer(stamp_of(message.frame_stamp), SAFE_COMMAND),
+        )  # fmt: skip
         self._inputs = BridgeInputs(self, drive)
         self._diagnostics = NodeDiagnostics(
             self, self._topics.peers(drive), self._inputs.monitor,
@@ -114,8 +115,7 @@ class BridgeNode(Node):
 
     def _on_arrivals(self) -> None:
         for _ in range(EVENTS_PER_TURN):
-            event = self._inbox.take()
-            if event is None:
+            if (event := self._inbox.take()) is None:
                 return
             self._on_event(event)
         self._arrival.trigger()

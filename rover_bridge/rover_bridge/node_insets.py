@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,6 @@ from nav_msgs.msg import OccupancyGrid
 from numpy.typing import NDArray
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import NotInitializedException
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rover_interfaces.msg import RockTrackArray
 from sensor_msgs.msg import Image
@@ -24,9 +24,10 @@ from sensor_msgs.msg import Image
 from rover_bridge.codec import shows_insets
 from rover_bridge.config import BridgeConfig
 from rover_bridge.insets import NO_INSETS, Insets, MapScene, encode_inset, map_inset
-from rover_common import topics
+from rover_common import frames, topics
 from rover_common.geometry import Pose, distance_between
 from rover_common.ros import qos
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import MessageError, grid_of, image_of, rocks_of, stamp_of
 from rover_common.types import Run
 
@@ -41,10 +42,10 @@ STOP_SECONDS = 5.0  # [s] until the thread has ended
 LOG_PERIOD = 5.0  # [s] between two lines about pictures that cannot be made
 
 
-class InsetNode(Node):
-    """Holds the newest message of each topic."""
+class InsetNode(CheckedNode):
+    """Holds the newest message of each topic that can be used; the bridge counts the others."""
 
-    def __init__(self, bridge: Node) -> None:
+    def __init__(self, bridge: CheckedNode) -> None:
         super().__init__(
             f"{bridge.get_name()}_insets",
             context=bridge.context,
@@ -54,10 +55,12 @@ class InsetNode(Node):
             start_parameter_services=False,
             enable_rosout=False,
         )
+        self.counts = bridge.counts
+        self.expect_frames({topics.WORLDMAP: frames.MAP, topics.ROCKS: frames.MAP})
         self._newest: dict[str, Any] = {}
         self._inputs = {
             topic: self.create_subscription(
-                kind, bridge.resolve_topic_name(topic), lambda _: None, profile
+                kind, bridge.resolve_topic_name(topic), partial(self._store, topic), profile
             )
             for topic, kind, profile in INPUTS
         }
@@ -68,8 +71,11 @@ class InsetNode(Node):
         with subscription.handle:
             taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
         if taken is not None:
-            self._newest[topic] = taken[0]
+            subscription.callback(taken[0])
         return self._newest.get(topic)
+
+    def _store(self, topic: str, message: Any) -> None:
+        self._newest[topic] = message
 
 
 class InsetDrawer:
@@ -78,7 +84,9 @@ class InsetDrawer:
     All methods but those of the thread are called in the bridge's thread and return at once.
     """
 
-    def __init__(self, bridge: Node, config: BridgeConfig, truth: NDArray[np.bool_] | None) -> None:
+    def __init__(
+        self, bridge: CheckedNode, config: BridgeConfig, truth: NDArray[np.bool_] | None
+    ) -> None:
         self._bridge = bridge
         self._mode, self._period, self._truth = config.insets, config.inset_period, truth
         self._client: str | None = None  # the active client, if it shows insets

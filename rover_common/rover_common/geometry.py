@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+ROUNDING = 1e-9  # of the length of a unit quaternion of 64-bit numbers
+
 
 @dataclass(frozen=True)
 class Pose:
@@ -94,6 +96,17 @@ def angles_from_quaternion(x: float, y: float, z: float, w: float) -> tuple[floa
     pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
     yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
     return roll, pitch, yaw
+
+
+def angles_from_rotation(x: float, y: float, z: float, w: float) -> tuple[float, float, float]:
+    """The same of a quaternion that is of length 1 but for rounding, as others send it.
+
+    One of 64-bit numbers is taken bit by bit, so that what is sent and read again stays the same.
+    """
+    length = math.hypot(x, y, z, w)
+    if abs(length - 1.0) > ROUNDING:
+        x, y, z, w = x / length, y / length, z / length, w / length
+    return angles_from_quaternion(x, y, z, w)
 
 
 def through_quaternion(pose: Pose) -> Pose:

@@ -7,7 +7,7 @@ does not fall back.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, field
 
 from rover_common.config import parameter
@@ -79,6 +79,10 @@ class InputMonitor:
         self._limits = limits
         self._records = {each.name: _Record() for each in self._inputs}
         self._pauses = {each.name: each.pause for each in self._inputs}
+
+    @property
+    def names(self) -> Collection[str]:
+        return self._records.keys()
 
     def note(self, name: str, now: float) -> None:
         """A usable message came."""

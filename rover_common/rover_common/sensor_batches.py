@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass, field, replace
 
 from rover_common.sensor_types import Imu, LaserScan, SensorBatch, ThermalFrame, WheelOdometry
+
+# Of a sensor, that wait while nobody takes them, as before a simulated clock begins. A tick counts
+# no more than 255.
+MOST = 1000
 
 
 @dataclass(frozen=True)
@@ -33,12 +38,12 @@ class Tick:
 
 @dataclass
 class _Said:
-    """What came since the last batch."""
+    """What came since the last batch; of more than MOST the oldest is lost."""
 
-    scans: list[LaserScan] = field(default_factory=list)
-    imus: list[Imu] = field(default_factory=list)
-    odometry: list[WheelOdometry] = field(default_factory=list)
-    thermal: list[ThermalFrame] = field(default_factory=list)
+    scans: deque[LaserScan] = field(default_factory=lambda: deque(maxlen=MOST))
+    imus: deque[Imu] = field(default_factory=lambda: deque(maxlen=MOST))
+    odometry: deque[WheelOdometry] = field(default_factory=lambda: deque(maxlen=MOST))
+    thermal: deque[ThermalFrame] = field(default_factory=lambda: deque(maxlen=MOST))
     launches: int = 0
 
     def holds(self, tick: Tick) -> bool:
@@ -82,7 +87,8 @@ class BatchCollector:
         tick = self._tick
         if tick is None or not self._said.holds(tick):
             return None
-        self._said.thermal = [replace(frame, stamp=tick.stamp) for frame in self._said.thermal]
+        frames = [replace(frame, stamp=tick.stamp) for frame in self._said.thermal]
+        self._said.thermal = deque(frames, maxlen=MOST)
         self._tick = None
         return self.take(tick.stamp)
 

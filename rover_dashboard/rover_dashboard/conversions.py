@@ -6,6 +6,8 @@ Positions are [m] in the map frame, rounded to a centimetre.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -26,6 +28,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 from rover_common import topics
 from rover_common.ros.conversions import grid_of, image_of, stamp_of
 from rover_common.ros.diagnostics import TEAM_STATUS
+from rover_common.ros.message_checks import CHECKS, parts_of
+from rover_common.ros.message_errors import MessageError
 from rover_common.types import VehicleState
 from rover_dashboard.encoders import Jpeg, Picture, StampedMap
 from rover_dashboard.history import StateReport
@@ -60,6 +64,14 @@ TYPES: dict[str, type] = {
 def decoded(topic: str, data: bytes) -> Any:
     """A message of one of the topics in TYPES from its CDR bytes."""
     return deserialize_message(data, TYPES[topic])
+
+
+def usable_parts(message: Any) -> Iterator[Any]:
+    """What a node would take of a message of a recording: what it would refuse is left out."""
+    for part in parts_of(message):
+        with suppress(MessageError):
+            CHECKS[type(message)](part)
+            yield part
 
 
 def picture_of(message: Image) -> Picture:

@@ -42,6 +42,7 @@ from visualization_msgs.msg import MarkerArray
 from rover_common import topics
 from rover_common.errors import RoverError
 from rover_common.ros import qos
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
 from rover_common.ros.runner import (
@@ -68,7 +69,6 @@ from rover_dashboard.protocol import (
 from rover_dashboard.server import Server
 from rover_dashboard.slots import Slots
 
-LOG_PERIOD = 5.0  # [s] between two lines about messages that cannot be shown
 PARAMETERS_PERIOD = 2.0  # [s] between two reads of the decision node's parameters
 
 Endpoints = tuple[tuple[str, type, QoSProfile], ...]  # topic, type, QoS
@@ -96,7 +96,7 @@ WATCHED: Endpoints = (  # while somebody looks
 )
 
 
-class DashboardNode(Node):
+class DashboardNode(CheckedNode):
     """Callbacks only store; the server reads."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -131,10 +131,7 @@ class DashboardNode(Node):
             self._intake.stop_viewing()
 
     def _on_message(self, topic: str, message: Any) -> None:
-        try:
-            self._intake.take(topic, message)
-        except RoverError as error:
-            self.get_logger().warning(f"{topic}: {error}", throttle_duration_sec=LOG_PERIOD)
+        self._intake.take(topic, message)
 
 
 class GraphRobot:

@@ -8,10 +8,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rover_interfaces.msg import HeatSourceArray, HeatState
 from std_msgs.msg import Float32MultiArray
-from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rover_common import frames, topics
@@ -28,7 +28,6 @@ from rover_heat.thermal.picture import excess_of, picture_of
 
 SPACING = 0.03  # [m] between two points of the track
 SAME_START = 0.5  # [s] two states of one run agree on its start
-PIXELS = 64  # of a thermal frame
 CORNERS = 24  # of a disc's outline
 
 
@@ -44,7 +43,7 @@ class HeatIntake:
         self.takers: dict[str, Callable[[Any], None]] = {
             topics.HEAT_STATE: self._take_state,
             topics.ODOMETRY: self._take_odometry,
-            TF: self._take_transforms,
+            TF: self._take_transform,
             topics.MAP: self._take_map,
             topics.HEAT_MARKERS: self._take_markers,
             topics.HEAT_SOURCES: self._take_sources,
@@ -86,11 +85,9 @@ class HeatIntake:
             },
         )
 
-    def _take_transforms(self, message: TFMessage) -> None:
-        for transform in message.transforms:
-            pair = transform.header.frame_id, transform.child_frame_id
-            if pair == (frames.MAP, frames.ODOM):
-                self._correction = pose_of_transform(transform)
+    def _take_transform(self, link: TransformStamped) -> None:
+        if (link.header.frame_id, link.child_frame_id) == (frames.MAP, frames.ODOM):
+            self._correction = pose_of_transform(link)
 
     def _take_map(self, message: OccupancyGrid) -> None:
         stamped = map_of(message)
@@ -104,8 +101,6 @@ class HeatIntake:
         self._slots.put("sources", sources_of(message))
 
     def _take_temperatures(self, sensor: int, message: Float32MultiArray) -> None:
-        if len(message.data) != PIXELS:
-            return
         celsius = np.array(message.data, np.float32).reshape(8, 8)
         warmest = float(excess_of(celsius).max())
         self._excess[sensor - 1] = round(warmest, 2) if math.isfinite(warmest) else None

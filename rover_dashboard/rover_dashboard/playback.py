@@ -15,7 +15,7 @@ from typing import Any, Protocol
 
 from rover_common import topics
 from rover_common.errors import RoverError
-from rover_dashboard.conversions import COMPRESSED_VISION, TYPES, decoded
+from rover_dashboard.conversions import COMPRESSED_VISION, TYPES, decoded, usable_parts
 from rover_dashboard.feed import SLOTS
 from rover_dashboard.history import History
 from rover_dashboard.node_intake import Intake
@@ -167,8 +167,8 @@ class Playback:
                 if topic in MAPS:
                     self._small.append(_Small(record.log_time, topic, record.publish_time))
                 continue
-            message = decoded(topic, record.data)
-            self._small.append(_Small(record.log_time, topic, message))
+            for part in usable_parts(decoded(topic, record.data)):
+                self._small.append(_Small(record.log_time, topic, part))
             if topic == topics.ODOMETRY:
                 self._stamps.append(record.publish_time)
                 self._frame_times.append(record.log_time)
@@ -231,7 +231,8 @@ class Playback:
             newest[self._next_large.topic.removeprefix(self._prefix)] = self._next_large.data
             self._next_large = next(self._large, None)
         for topic, data in newest.items():
-            self._intake.take(topic, decoded(topic, data))
+            for part in usable_parts(decoded(topic, data)):
+                self._intake.take(topic, part)
 
 
 def _prefix(names: Collection[str]) -> str:

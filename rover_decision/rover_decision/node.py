@@ -17,7 +17,6 @@ from typing import Any
 
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
 from rover_interfaces.msg import (
     DriveCommand,
     MissionState,
@@ -29,9 +28,10 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-from rover_common import nodes, topics
+from rover_common import frames, nodes, topics
 from rover_common.errors import RoverError
 from rover_common.ros import conversions, qos
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
@@ -54,13 +54,21 @@ FRAME_PARTS = {
     topics.FREE_SCAN: LaserScan,
     topics.ROCKS: RockTrackArray,
 }
+FRAME_IDS = {
+    topics.ODOMETRY: frames.ODOM,
+    topics.NAV_POLAR: frames.BASE,
+    topics.ROCK_POLAR: frames.BASE,
+    topics.FREE_SCAN: frames.BASE,
+    topics.ROCKS: frames.MAP,
+    topics.NAVIGATION_MAP: frames.MAP,
+}
 Parts = dict[str, Any]  # of one frame, by topic
 VERSION = 1  # of what is saved
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
 PATIENCE = 5.0  # [s] of wall time that a frame waits for the map of its plan
 
 
-class DecisionNode(Node):
+class DecisionNode(CheckedNode):
     """Collects one frame's parts, steps the core, publishes what it decided."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -79,6 +87,7 @@ class DecisionNode(Node):
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
         self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
+        self.expect_frames(FRAME_IDS)
         heard = {
             topic: self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()

@@ -15,12 +15,12 @@ from typing import Any
 
 from nav_msgs.msg import OccupancyGrid
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
 from std_msgs.msg import Header, Int32
 from std_srvs.srv import Trigger
 
 from rover_common import nodes, topics
 from rover_common.ros import qos
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import grid_message_of, header_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.endpoint_watch import EndpointWatch
@@ -50,7 +50,7 @@ SPIN = 50  # what the launcher takes as its signal
 REQUESTS = (Request.START, Request.PAUSE, Request.RESUME, Request.RESET)
 
 
-class HeatNode(Node):
+class HeatNode(CheckedNode):
     """Collects what the sensors say, steps the mission, publishes what it decided."""
 
     def __init__(self, **kwargs: Any) -> None:

@@ -8,8 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
-from rclpy.node import Node
 from rover_interfaces.msg import SensorTick
 from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Float32MultiArray, String
@@ -19,7 +19,8 @@ from rover_common import frames, nodes, topics
 from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
-from rover_common.ros.conversions import MessageError, grid_of, stamp_of
+from rover_common.ros.checked_node import CheckedNode
+from rover_common.ros.conversions import grid_of, stamp_of
 from rover_common.ros.diagnostics import input_of
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.transforms import pose_of_transform
@@ -27,7 +28,6 @@ from rover_common.sensor_batches import BatchCollector
 from rover_common.types import GridMap
 from rover_navigation.transform_buffer import TransformBuffer
 
-LOG_PERIOD = 5.0  # [s]
 # What has to come all the time, and for how long it is silent anyway [s].
 PAUSES = {
     topics.SCAN: 0.0,
@@ -42,14 +42,13 @@ PAUSES = {
 class HeatSensors:
     """Callbacks only store; `heard` is called after each of them."""
 
-    def __init__(self, node: Node, lockstep: bool, heard: Callable[[], None]) -> None:
+    def __init__(self, node: CheckedNode, lockstep: bool, heard: Callable[[], None]) -> None:
         self._node = node
         self._heard = heard
         self.collector = BatchCollector()
         self.poses = TransformBuffer()
         self.grid: GridMap | None = None
         self.grid_stamp = 0  # [ns]
-        self.dropped = 0  # thermal frames that are none
         thermal = self._on_thermal
         listened: list[tuple[Any, str, Callable[[Any], None], Any]] = [
             (LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
@@ -59,10 +58,11 @@ class HeatSensors:
             (Float32MultiArray, topics.TEMPERATURE_2, partial(thermal, 2), qos.SENSOR),
             (String, topics.FLYWHEEL_STATUS, lambda _: self.collector.add_launch(), qos.CONTROL),
             (OccupancyGrid, topics.MAP, self._on_map, qos.LATCHED),
-            (TFMessage, "/tf", self._on_transforms, qos.TF),
+            (TFMessage, "/tf", self._on_transform, qos.TF),
         ]
         if lockstep:
             listened.append((SensorTick, topics.SENSOR_TICK, self._on_tick, qos.SENSOR))
+        node.expect_frames({topics.MAP: frames.MAP})
         self.subscriptions = [
             node.create_subscription(kind, topic, partial(self._store, topic, callback), profile)
             for kind, topic, callback, profile in listened
@@ -83,6 +83,12 @@ class HeatSensors:
             replace(self.limits, input_min_rate=0.0) if lockstep else self.limits,
         )
 
+    @property
+    def dropped(self) -> int:
+        """Thermal frames that are none."""
+        begin = (f"refused_{topics.TEMPERATURE_1}", f"refused_{topics.TEMPERATURE_2}")
+        return sum(n for key, n in self._node.counts.items() if key.startswith(begin))
+
     def _store(self, topic: str, callback: Callable[[Any], None], message: Any) -> None:
         if topic in PAUSES:
             self.inputs.note(topic, time.monotonic())
@@ -90,8 +96,7 @@ class HeatSensors:
         self._heard()
 
     def _on_scan(self, message: LaserScan) -> None:
-        if len(message.ranges):
-            self.collector.add(sensors.laser_scan_of(message))
+        self.collector.add(sensors.laser_scan_of(message))
 
     def _on_odometry(self, message: Odometry) -> None:
         self.collector.add(sensors.wheel_odometry_of(message))
@@ -99,24 +104,17 @@ class HeatSensors:
     def _on_thermal(self, sensor: int, message: Float32MultiArray) -> None:
         """It has no stamp: it counts as arrived now."""
         now = self._node.get_clock().now().nanoseconds
-        try:
-            self.collector.add(sensors.thermal_of(message, now, sensor))
-        except MessageError as error:
-            self.dropped += 1
-            self._node.get_logger().warning(
-                f"sensor {sensor}: {error}", throttle_duration_sec=LOG_PERIOD
-            )
+        self.collector.add(sensors.thermal_of(message, now, sensor))
 
     def _on_map(self, message: OccupancyGrid) -> None:
         self.grid, self.grid_stamp = grid_of(message), stamp_of(message.header.stamp)
 
-    def _on_transforms(self, message: TFMessage) -> None:
-        for link in message.transforms:
-            stamp, child = stamp_of(link.header.stamp), link.child_frame_id
-            if (link.header.frame_id, child) == (frames.MAP, frames.ODOM):
-                self.poses.add_correction(stamp, pose_of_transform(link))
-            elif link.header.frame_id == frames.ODOM and child in frames.BODIES:
-                self.poses.add_odometry(stamp, pose_of_transform(link))
+    def _on_transform(self, link: TransformStamped) -> None:
+        stamp, child = stamp_of(link.header.stamp), link.child_frame_id
+        if (link.header.frame_id, child) == (frames.MAP, frames.ODOM):
+            self.poses.add_correction(stamp, pose_of_transform(link))
+        elif link.header.frame_id == frames.ODOM and child in frames.BODIES:
+            self.poses.add_odometry(stamp, pose_of_transform(link))
 
     def _on_tick(self, message: SensorTick) -> None:
         self.collector.add_tick(sensors.tick_of(message))

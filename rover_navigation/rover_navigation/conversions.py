@@ -13,13 +13,21 @@ from rover_interfaces.msg import NavigationTick
 
 from rover_common import frames
 from rover_common.geometry import Pose
+from rover_common.ros.check_values import FARTHEST, check_within
 from rover_common.ros.conversions import NANOSECONDS, header_of, time_of
+from rover_common.ros.message_checks import check_pose
 from rover_common.ros.transforms import pose_message_of
 from rover_navigation.embedded_goal import EmbeddedGoal
 from rover_navigation.embedded_navigator import NavigatorOutput
 
 # A failure of no kind that the action has a number for; the text has the reason.
 UNKNOWN_ERROR = 9000
+
+
+def check_feedback(feedback: NavigateToPose.Feedback) -> None:
+    """Raises MessageError."""
+    check_pose(feedback.current_pose)
+    check_within("distance remaining", feedback.distance_remaining, 0.0, FARTHEST)
 
 
 def feedback_of(

@@ -67,19 +67,21 @@ class Costmap:
 
 def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArray[np.int8]]:
     """The known part of the map and the body, with a margin; never empty."""
-    whole = _geometry(grid.resolution, grid.cells.shape, grid.origin_x, grid.origin_y)
-    known = grid.cells >= 0
+    odd = [(0, count % 2) for count in grid.cells.shape]
+    map_cells = np.pad(grid.cells, odd, constant_values=-1) if np.any(odd) else grid.cells
+    whole = _geometry(grid.resolution, map_cells.shape, grid.origin_x, grid.origin_y)
+    known = map_cells >= 0
     row, col = (int(i) for i in whole.nearest_cell_to(*body))
     bounds = []
     for axis, at in ((1, row), (0, col)):
         indices = np.flatnonzero(known.any(axis=axis))
         first, last = (indices[0], indices[-1]) if len(indices) else (at, at)
-        size = grid.cells.shape[1 - axis]
+        size = map_cells.shape[1 - axis]
         low = max(0, min(int(first), at) - MARGIN) // 2 * 2
         high = min(size, (max(int(last), at) + MARGIN + 1) // 2 * 2)
         bounds.append((low, high))
     (row0, row1), (col0, col1) = bounds
-    cells = grid.cells[row0:row1, col0:col1]
+    cells = map_cells[row0:row1, col0:col1]
     x, y = (grid.origin_x + col0 * grid.resolution, grid.origin_y + row0 * grid.resolution)
     return _geometry(grid.resolution, cells.shape, x, y), cells
 

@@ -13,8 +13,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
-from rclpy.node import Node
 from rover_interfaces.msg import NavigationTick, SensorTick
 from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
@@ -24,6 +24,7 @@ from rover_common.burger import BURGER
 from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import grid_message_of, grid_of, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.endpoint_watch import EndpointWatch
@@ -44,7 +45,7 @@ PERIOD = 0.05  # [s] between two steps
 NOBODY_ELSE = 2_000_000_000  # [ns] of odometry without odom -> base_footprint by the robot
 
 
-class NavigatorNode(Node):
+class NavigatorNode(CheckedNode):
     """Collects what the sensors say, steps the navigator, publishes what it says."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -88,12 +89,13 @@ class NavigatorNode(Node):
 
     def _subscribe(self) -> list[Any]:
         subscribe = self.create_subscription
+        self.expect_frames({topics.HAZARD_MAP: frames.MAP})
         subscriptions = [
             subscribe(LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
             subscribe(Imu, topics.IMU, self._on_imu, qos.IMU),
             subscribe(Odometry, topics.ODOMETRY, self._on_odometry, qos.SENSOR),
             subscribe(OccupancyGrid, topics.HAZARD_MAP, self._on_hazards, qos.LATCHED),
-            subscribe(TFMessage, "/tf", self._on_transforms, qos.TF),
+            subscribe(TFMessage, "/tf", self._on_transform, qos.TF),
         ]
         if self._config.lockstep:
             on_tick = self._on_sensor_tick
@@ -108,8 +110,7 @@ class NavigatorNode(Node):
 
     def _on_scan(self, message: LaserScan) -> None:
         self._inputs.note(topics.SCAN, time.monotonic())
-        if len(message.ranges):
-            self._collector.add(sensors.laser_scan_of(message))
+        self._collector.add(sensors.laser_scan_of(message))
         self._step_when_complete()
 
     def _on_imu(self, message: Imu) -> None:
@@ -133,12 +134,10 @@ class NavigatorNode(Node):
         if self._last is not None:
             self._answer(self._last)
 
-    def _on_transforms(self, message: TFMessage) -> None:
+    def _on_transform(self, link: TransformStamped) -> None:
         """Whether the robot sends its odometry's transform; what this node sends comes here too."""
         if self._config.odometry_transform == "auto" and not self._sends_odometry:
-            self._robot_sends_odometry |= any(
-                transform.header.frame_id == frames.ODOM for transform in message.transforms
-            )
+            self._robot_sends_odometry |= link.header.frame_id == frames.ODOM
 
     def _on_timer(self) -> None:
         self._step(self._collector.take(self.get_clock().now().nanoseconds))

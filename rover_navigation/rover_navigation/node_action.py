@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 from nav2_msgs.action import NavigateToPose
@@ -12,6 +13,8 @@ from rclpy.node import Node
 from rover_common import frames, topics
 from rover_common.burger import BURGER
 from rover_common.ros.actions import DeferringActionServer
+from rover_common.ros.message_checks import check_pose
+from rover_common.ros.message_errors import FrameError, MessageError, NotFiniteError
 from rover_common.ros.transforms import pose_of_message
 from rover_navigation.conversions import feedback_of, result_of
 from rover_navigation.embedded_goal import EmbeddedGoal
@@ -79,8 +82,13 @@ class NavigateServer:
 
     def _on_request(self, goal: NavigateToPose.Goal) -> GoalResponse:
         frame = goal.pose.header.frame_id
-        if frame not in ("", frames.MAP):
-            self._node.get_logger().warning(f"goal rejected: it is in {frame}, not in {frames.MAP}")
+        try:
+            with suppress(NotFiniteError):  # that ends it with a result
+                check_pose(goal.pose)
+            if frame not in ("", frames.MAP):
+                raise FrameError(f"it is in {frame}, not in {frames.MAP}")
+        except MessageError as error:
+            self._node.get_logger().warning(f"goal rejected: {error}")
             return GoalResponse.REJECT
         return GoalResponse.ACCEPT
 

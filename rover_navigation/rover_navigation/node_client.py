@@ -11,19 +11,21 @@ from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
 from nav2_msgs.action import NavigateToPose
 from rclpy.action import ActionClient
-from rclpy.node import Node
 from rclpy.qos import qos_profile_action_status_default
 from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
 from rover_common import frames, topics
 from rover_common.geometry import Pose
+from rover_common.ros.checked_node import CheckedNode, Entrance
 from rover_common.ros.conversions import stamp_of
 from rover_common.ros.transforms import pose_message_of
+from rover_navigation.conversions import check_feedback
 from rover_navigation.navigator import GoalStatus as Status
 from rover_navigation.reported_goal import ReportedGoal
 
 AGAIN = 500_000_000  # [ns] after which what is not answered is asked again
+FEEDBACK = f"{topics.NAVIGATE}/_action/feedback"
 ACTIVE = (GoalStatus.STATUS_ACCEPTED, GoalStatus.STATUS_EXECUTING)
 
 
@@ -55,7 +57,7 @@ class ActionNavigator:
     What is given up is canceled until somebody answers, as a server that was started anew does.
     """
 
-    node: Node
+    node: CheckedNode
     on_heard: Callable[[], None] = lambda: None  # called when the server has said something
     is_ready: bool = False
     _sent: _Sent | None = None
@@ -99,9 +101,12 @@ class ActionNavigator:
         sent = _Sent(goal_id, ReportedGoal(lambda: self._give_up(sent)))
         sent.request = _Request(goal_id, self._now)
         self._sent = sent
+        heard = Entrance(
+            self.node, FEEDBACK, lambda said: self._on_feedback(sent, said), check_feedback
+        )
         future = self._client.send_goal_async(
             NavigateToPose.Goal(pose=pose_message_of(self._now, frames.MAP, pose)),
-            lambda message: self._on_feedback(sent, message.feedback),
+            lambda message: heard(message.feedback),
             goal_id,
         )
         future.add_done_callback(lambda future: self._on_answer(sent, future.result()))

@@ -17,7 +17,6 @@ import numpy as np
 from nav_msgs.msg import OccupancyGrid, Odometry
 from numpy.typing import NDArray
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rover_interfaces.msg import PolarArray, RockTrackArray, RoverStatus
 from sensor_msgs.msg import Image, LaserScan
@@ -25,7 +24,7 @@ from sensor_msgs.msg import Image, LaserScan
 from rover_common import frames, nodes, topics
 from rover_common.input_monitor import Input, InputLimits, InputMonitor
 from rover_common.ros import conversions, qos
-from rover_common.ros.conversions import MessageError
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
@@ -41,14 +40,13 @@ from rover_perception.frame_validation import FrameError
 # Counters in /diagnostics, beside those of FrameError's subclasses.
 FRAMES = "frames"
 FRAMES_INCOMPLETE = "frames_incomplete"
-IMAGE_ENCODING = "frame_image_encoding"
 
 VERSION = 1  # of what is saved
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
 PAUSE = 0.2  # [s] of wall time without a frame after which the map is brought up to date
 
 
-class PerceptionNode(Node):
+class PerceptionNode(CheckedNode):
     """Joins the parts of a frame, calls the core once per frame and publishes its result."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -73,6 +71,7 @@ class PerceptionNode(Node):
 
     def _make_endpoints(self) -> None:
         publish = self.create_publisher
+        self.expect_frames({topics.ODOMETRY: frames.ODOM})
         self._nav = publish(PolarArray, topics.NAV_POLAR, qos.FRAME)
         self._rock_polar = publish(PolarArray, topics.ROCK_POLAR, qos.FRAME)
         self._scan = publish(LaserScan, topics.FREE_SCAN, qos.FRAME)
@@ -128,8 +127,6 @@ class PerceptionNode(Node):
             result = self._core.process(frame)
         except FrameError as error:
             self._drop(error.counter, error)
-        except MessageError as error:
-            self._drop(IMAGE_ENCODING, error)
         else:
             self._diagnostics.counts[FRAMES] += 1
             self._inputs.note(FRAMES, now)

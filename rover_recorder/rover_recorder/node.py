@@ -18,7 +18,6 @@ from typing import Any
 
 import rclpy
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
 from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
 from rclpy.subscription import Subscription
@@ -26,7 +25,8 @@ from sensor_msgs.msg import Image
 
 from rover_common import topics
 from rover_common.errors import RoverError
-from rover_common.ros.conversions import MessageError, stamp_of
+from rover_common.ros.checked_node import CheckedNode
+from rover_common.ros.conversions import stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
@@ -54,7 +54,6 @@ from rover_recorder.writer import RecordingWriter
 SEARCH_PERIOD = 0.5  # [s] between two looks for new topics
 FLUSH_PERIOD = 1.0  # [s] a kill loses at most as much
 LAST_SECONDS = 0.3  # [s] for what was published before the end to arrive
-LOG_PERIOD = 5.0  # [s] between two lines about messages that are left out
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 # The graph is recorded when these are: what a replay needs, and what each node makes.
 NEEDED = {
@@ -71,7 +70,7 @@ NEEDED = {
 }
 
 
-class RecorderNode(Node):
+class RecorderNode(CheckedNode):
     """Finds topics, and gives their messages to the writer."""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -155,11 +154,7 @@ class RecorderNode(Node):
 
     def _on_picture(self, topic: str, message: Image) -> None:
         now, stamp = time.time_ns(), stamp_of(message.header.stamp)
-        try:
-            data = serialize_message(compressed_of(message))
-        except MessageError as error:
-            self.get_logger().warning(f"{topic}: {error}", throttle_duration_sec=LOG_PERIOD)
-            return
+        data = serialize_message(compressed_of(message))
         self._try(partial(self.writer.write, topic, now, stamp, data))
 
     def _flush(self) -> None:

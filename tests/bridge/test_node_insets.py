@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import threading
+import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -36,7 +37,7 @@ class Source(Node):
         super().__init__("source", **kwargs)
         cells = np.full((200, 200), -1, np.int8)
         cells[150, 60] = 0
-        stamp = 2 * 10**18  # of the present run, whenever it began
+        stamp = time.time_ns() + 5 * 10**9  # of the present run, which begins soon
         rock = RockTrack(1, 100.0, 100.0, (0.0, 0.0, 0.0, 0.0), 1, 0)
         self._messages = [
             (OccupancyGrid, topics.WORLDMAP, qos.LATCHED,

@@ -125,7 +125,7 @@ def test_a_velocity_that_is_no_number_stands(ros, watcher):
     node = ros.add(BurgerNode, **FAST)
     assert ros.spin_until(lambda: driver.get_subscription_count() > 0)
     driver.publish(stamped_twist_message_of(0, Twist(math.nan, 0.0)))
-    assert ros.spin_until(lambda: node._diagnostics.counts["velocities_refused"] == 1)
+    assert ros.spin_until(lambda: node.counts["refused_cmd_vel_not_finite"] == 1)
     assert ros.spin_until(lambda: node.simulation.time > 2.0)
     assert node.simulation.truth.distance < 0.01
 

@@ -31,11 +31,13 @@ def test_image():
     message = conversions.image_message_of(STAMP, "camera", image)
     assert (conversions.image_of(message) == image).all()
     message.encoding = "bgr8"
-    with pytest.raises(conversions.MessageError, match="bgr8"):
+    assert (conversions.image_of(message) == image[:, :, ::-1]).all()
+    message.encoding = "mono16"
+    with pytest.raises(conversions.MessageError, match="mono16"):
         conversions.image_of(message)
     message.encoding = "rgb8"
     message.height = 5
-    with pytest.raises(conversions.MessageError, match="height"):
+    with pytest.raises(conversions.MessageError, match="for 5 rows"):
         conversions.image_of(message)
 
 

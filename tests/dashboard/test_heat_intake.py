@@ -26,7 +26,7 @@ from std_msgs.msg import Float32MultiArray
 from rover_common import topics
 from rover_common.geometry import Pose
 from rover_common.ros import conversions
-from rover_dashboard.conversions import TF
+from rover_dashboard.conversions import TF, usable_parts
 from rover_dashboard.feed import Feed, Seen
 from rover_dashboard.history import History
 from rover_dashboard.log import Cursor
@@ -45,7 +45,8 @@ class Shown:
 
     def take(self, topic, *messages) -> None:
         for message in messages:
-            self.intake.take(topic, message)
+            for part in usable_parts(message):
+                self.intake.take(topic, part)
 
     def value(self, name):
         slot = self.slots.get(name)

@@ -18,6 +18,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from rover_common import topics
 from rover_common.geometry import Pose
 from rover_common.ros import conversions, qos
+from rover_common.ros.sensor_checks import JPEG_BEGIN
 from rover_dashboard.feed import VIEWS
 from rover_dashboard.log import Cursor
 from rover_dashboard.node import DashboardNode, GraphRobot, spinning
@@ -119,7 +120,7 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
         DiagnosticStatus(level=DiagnosticStatus.ERROR, name="/rover", message="the cause"),
     ]
     sent = {
-        topics.COMPRESSED_IMAGE: (CompressedImage(), qos.FRAME),
+        topics.COMPRESSED_IMAGE: (CompressedImage(data=array("B", JPEG_BEGIN)), qos.FRAME),
         topics.VISION_IMAGE: (image, qos.VIEW),
         topics.WORLDMAP: (grid, qos.LATCHED),
         topics.PLAN: (Path(), qos.VIEW),
@@ -143,8 +144,11 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
 
 
 def test_an_image_that_cannot_be_shown_is_left_out(dashboard):
-    dashboard._on_message(topics.VISION_IMAGE, Image(encoding="mono8"))
+    dashboard.set_watched(True)
+    (vision,) = [s for s in dashboard._views if s.topic_name.endswith(topics.VISION_IMAGE)]
+    vision.callback(Image(encoding="mono16"))
     assert dashboard.slots.get("vision") is None
+    assert dashboard.counts[f"refused_{topics.VISION_IMAGE}_encoding"] == 1
 
 
 @pytest.fixture

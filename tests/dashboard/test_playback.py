@@ -18,6 +18,7 @@ from sensor_msgs.msg import CompressedImage
 from rover_common import topics
 from rover_common.geometry import Pose
 from rover_common.ros import conversions
+from rover_common.ros.sensor_checks import JPEG_BEGIN
 from rover_dashboard.feed import Feed, Seen
 from rover_dashboard.log import Cursor
 from rover_dashboard.playback import SPEEDS, Playback, PlaybackError
@@ -78,7 +79,7 @@ def recorded(run_2_at: int = 40) -> Recorded:
         pose = Pose(10.0 + second, 50.0, 0.0)
         made.add(topics.ODOMETRY, at, stamp, conversions.odometry_of(stamp, pose, 1.0))
         made.add(topics.STATUS, at, stamp, status)
-        image = CompressedImage(data=array("B", f"image {frame}".encode()))
+        image = CompressedImage(data=array("B", JPEG_BEGIN + f"image {frame}".encode()))
         made.add(topics.COMPRESSED_IMAGE, at, stamp, image)
         command = DriveCommand(frame_stamp=conversions.time_of(stamp))
         made.add(topics.COMMAND, at + 4_000_000, stamp, command)
@@ -133,7 +134,7 @@ async def test_a_position_shows_what_had_come_by_then(playback, _):
     assert playback.end == SECONDS
     await go_to(playback, 25.0)
     assert x_of(playback) == 35.0
-    assert playback.slots.get("camera").value.data == b"image 125"
+    assert playback.slots.get("camera").value.data == JPEG_BEGIN + b"image 125"
     assert (playback.slots.get("map").value.grid.cells == 0).sum() == 21
     assert playback.slots.get("mission").value["state"] == "S20"
     assert [row[1] for row in rows_of(playback, "timeline")] == ["S0", "S10", "S20"]
@@ -150,7 +151,7 @@ async def test_going_back_shows_the_same_as_before(playback, _):
     assert rows_of(playback, "track")[0] == (50.0, 50.0)
     await go_to(playback, 15.0)
     assert [rows_of(playback, log) for log in ("track", "plots", "timeline")] == before
-    assert playback.slots.get("camera").value.data == b"image 75"
+    assert playback.slots.get("camera").value.data == JPEG_BEGIN + b"image 75"
     assert playback.slots.get("mission").value["state"] == "S10"
 
 

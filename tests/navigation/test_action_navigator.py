@@ -9,11 +9,11 @@ import pytest
 from action_msgs.srv import CancelGoal
 from nav2_msgs.action import NavigateToPose
 from rclpy.action import ActionClient
-from rclpy.node import Node
 from stand_in_nav2 import StandInNav2
 
 from rover_common import frames, topics
 from rover_common.geometry import Pose
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.transforms import pose_message_of
 from rover_navigation.navigator import GoalStatus
 from rover_navigation.node_client import AGAIN, ActionNavigator
@@ -28,7 +28,7 @@ class Client:
 
     def __init__(self, ros: Any, server: StandInNav2) -> None:
         self.ros, self.server = ros, server
-        self.node = ros.add(lambda **kwargs: Node("mission", **kwargs))
+        self.node = ros.add(lambda **kwargs: CheckedNode("mission", **kwargs))
         self.navigator = ActionNavigator(self.node)
         self.stamp = 1_000_000_000
         self.until(lambda: self.navigator.is_present)

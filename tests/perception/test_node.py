@@ -102,8 +102,8 @@ def test_invalid_frames_are_dropped_and_counted_in_the_diagnostics(ros, peer):
     reports = peer.listen(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
     counts = peer.node._diagnostics.counts
     faults: dict[str, dict[str, Any]] = {
-        "frame_image_encoding": {"encoding": "bgr8"},
-        "frame_pose_not_finite": {"pose": Pose(float("nan"), 0.0, 0.0)},
+        "refused_camera/image_raw_encoding": {"encoding": "mono16"},
+        "refused_odom_not_finite": {"pose": Pose(float("nan"), 0.0, 0.0)},
         "frame_image_size": {"image": np.zeros((10, 10, 3), np.uint8)},
         "frame_pose_outside": {"pose": Pose(-3.0, 100.0, 0.0)},
         "frames": {},

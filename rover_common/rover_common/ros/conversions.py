@@ -19,8 +19,10 @@ from std_msgs.msg import Header
 
 from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT
-from rover_common.errors import RoverError
-from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
+from rover_common.geometry import Pose, angles_from_rotation, quaternion_from_pose
+from rover_common.ros.images import image_of as image_of
+from rover_common.ros.message_checks import check_grid
+from rover_common.ros.message_errors import MessageError as MessageError
 from rover_common.types import (
     CameraFrame,
     Command,
@@ -34,10 +36,6 @@ from rover_common.types import (
 
 NANOSECONDS = 1_000_000_000
 JPEG_FORMAT = "rgb8; jpeg compressed bgr8"  # as image_transport writes it
-
-
-class MessageError(RoverError, ValueError):
-    """A message that cannot be used: wrong size or encoding."""
 
 
 def stamp_of(time: Time) -> int:
@@ -59,7 +57,7 @@ def header_of(stamp: int, frame: str) -> Header:
 def pose_of(odometry: Odometry) -> Pose:
     """base_link in the odom frame, which is the map frame."""
     position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-    roll, pitch, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
+    roll, pitch, yaw = angles_from_rotation(q.x, q.y, q.z, q.w)
     return Pose(position.x, position.y, yaw, pitch, roll)
 
 
@@ -103,16 +101,6 @@ def image_message_of(stamp: int, frame: str, image: np.ndarray) -> Image:
         step=3 * width,
         data=array("B", image.tobytes()),
     )
-
-
-def image_of(message: Image) -> np.ndarray:
-    """A read-only view (height, width, 3) uint8 of an rgb8 Image; raises MessageError."""
-    if message.encoding != "rgb8":
-        raise MessageError(f"image encoding '{message.encoding}', expected rgb8")
-    if message.step != 3 * message.width or len(message.data) != message.height * message.step:
-        raise MessageError("image data does not fit its height, width and step")
-    view = np.frombuffer(message.data, np.uint8)
-    return view.reshape(message.height, message.width, 3)
 
 
 def jpeg_message_of(header: Header, jpeg: bytes) -> CompressedImage:
@@ -215,7 +203,11 @@ def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
 
 
 def grid_of(message: OccupancyGrid) -> GridMap:
-    """A read-only view of the message's cells; their size to the micrometre, of its 32 bits."""
+    """A read-only view of the message's cells; their size to the micrometre, of its 32 bits.
+
+    Raises MessageError.
+    """
+    check_grid(message)
     info = message.info
     cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
     resolution, origin = round(info.resolution, 6), info.origin.position

@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
@@ -17,6 +18,7 @@ from rclpy.subscription import Subscription
 from rover_common.health import Finding, Level, TeamHealth
 from rover_common.input_monitor import Input, InputMonitor, InputReport
 from rover_common.ros import qos
+from rover_common.ros.checked_node import CheckedNode
 
 PERIOD = 0.25  # [s] between two reports
 PEERS = "peers"  # the part that says who is not connected
@@ -33,8 +35,9 @@ class NodeDiagnostics:
 
     `peers` maps a peer's name to a function that tells whether it is connected; until all are, the
     level is WARN. `counts` is the node's own: count events with `diagnostics.counts["name"] += 1`.
-    Other troubles are set by name, and taken away with an empty text. `before_report` is called
-    with the time [s] of the steady clock before the inputs are judged.
+    It is that of a CheckedNode, whose refused messages are drops of its inputs. Other troubles are
+    set by name, and taken away with an empty text. `before_report` is called with the time [s] of
+    the steady clock before the inputs are judged.
     """
 
     def __init__(
@@ -44,7 +47,9 @@ class NodeDiagnostics:
         inputs: InputMonitor | None = None,
         before_report: Callable[[float], None] = lambda now: None,
     ) -> None:
-        self.counts: Counter[str] = Counter()
+        self.counts: Counter[str] = node.counts if isinstance(node, CheckedNode) else Counter()
+        if isinstance(node, CheckedNode) and inputs is not None:
+            node.on_refused = partial(_drop, inputs)
         self._node = node
         self._peers = dict(peers)
         self._inputs = inputs
@@ -143,6 +148,11 @@ class TeamDiagnostics:
             if part and node == name:
                 findings.append(_finding_of(part, status, name))
         self._health.hear(name, findings, now)
+
+
+def _drop(inputs: InputMonitor, topic: str, why: str) -> None:
+    if topic in inputs.names:
+        inputs.drop(topic, time.monotonic(), why)
 
 
 def _trouble(name: str, level: Level, text: str) -> Finding:

@@ -15,8 +15,9 @@ from std_msgs.msg import Float32MultiArray, MultiArrayDimension, MultiArrayLayou
 
 from rover_common import frames
 from rover_common.burger import BURGER
-from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
-from rover_common.ros.conversions import MessageError, header_of, stamp_of
+from rover_common.geometry import Pose, angles_from_rotation, quaternion_from_pose
+from rover_common.ros.conversions import header_of, stamp_of
+from rover_common.ros.sensor_checks import check_thermal
 from rover_common.sensor_batches import Tick
 from rover_common.sensor_types import Imu, LaserScan, ThermalFrame, Twist, WheelOdometry
 
@@ -95,7 +96,7 @@ def wheel_odometry_message_of(odometry: WheelOdometry) -> Odometry:
 def wheel_odometry_of(message: Odometry) -> WheelOdometry:
     """The heading to HEADING_DECIMALS; pitch and roll are none of it."""
     position, q = message.pose.pose.position, message.pose.pose.orientation
-    _, _, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
+    _, _, yaw = angles_from_rotation(q.x, q.y, q.z, q.w)
     return WheelOdometry(
         stamp=stamp_of(message.header.stamp),
         pose=Pose(position.x, position.y, round(yaw, HEADING_DECIMALS)),
@@ -115,10 +116,9 @@ def thermal_message_of(frame: ThermalFrame) -> Float32MultiArray:
 
 
 def thermal_of(message: Float32MultiArray, stamp: int, sensor: int) -> ThermalFrame:
-    """Arrived at `stamp`; its layout does not matter. Raises MessageError for another size."""
+    """Arrived at `stamp`; its layout does not matter. Raises MessageError."""
+    check_thermal(message)
     pixels = BURGER.thermal_pixels
-    if len(message.data) != pixels * pixels:
-        raise MessageError(f"thermal frame of {len(message.data)} values, expected {pixels**2}")
     celsius = np.array(message.data, np.float32).reshape(pixels, pixels)
     return ThermalFrame(stamp, sensor, celsius)
 

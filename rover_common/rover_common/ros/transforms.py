@@ -12,7 +12,7 @@ from geometry_msgs.msg import (
 )
 from geometry_msgs.msg import Pose as PoseMsg
 
-from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
+from rover_common.geometry import Pose, angles_from_rotation, quaternion_from_pose
 from rover_common.ros.conversions import header_of
 
 
@@ -51,5 +51,5 @@ def _quaternion(pose: Pose) -> Quaternion:
 
 
 def _yaw(q: Quaternion) -> float:
-    _, _, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
+    _, _, yaw = angles_from_rotation(q.x, q.y, q.z, q.w)
     return yaw

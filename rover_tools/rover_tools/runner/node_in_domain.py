@@ -8,8 +8,8 @@ from typing import Self
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.fast_dds import use_profiles
 
 
@@ -20,7 +20,7 @@ class NodeInDomain:
         use_profiles()
         self.context = Context()
         rclpy.init(context=self.context, args=[], domain_id=domain_id)
-        self.node = Node(name, context=self.context, enable_rosout=False)
+        self.node = CheckedNode(name, context=self.context, enable_rosout=False)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
 
