@@ -77,10 +77,10 @@ class WatchedSimulation(Simulation):
 
 
 @contextmanager
-def simulating(simulation: Simulation, run: Run) -> Iterator[None]:
+def simulating(simulation: Simulation, run: Run, frame_steps: int) -> Iterator[None]:
     """In real time, in a thread of its own."""
     ended = threading.Event()
-    pacing = TimedPacing(simulation, lambda: None, FRAME_STEPS * STEP)
+    pacing = TimedPacing(simulation, lambda: None, frame_steps * STEP)
     client = UnityClient(run.host, run.port)
     thread = threading.Thread(target=run_connected, args=(client, pacing, ended.is_set))
     thread.start()
@@ -136,7 +136,7 @@ def main() -> None:
     with (
         tempfile.TemporaryDirectory() as folder,
         running_graph(Path(folder)) as run,
-        simulating(simulation, run),
+        simulating(simulation, run, FRAME_STEPS),
     ):
         run.processes.respawn(NODES)
         for node, number in islice(cycle(FAULTS), options.faults):

@@ -140,6 +140,8 @@ def _watch(run: Run, time_limit: float) -> bool:
 
 def _line(watch: GraphWatch) -> str:
     mission = watch.mission
+    if watch.failure:
+        return watch.failure
     if mission is None:
         return "starting"
     return (
