@@ -50,6 +50,16 @@ class Machine:
         steps = "".join(f"{step}() {{ {body}; }}\n" for step in STEPS)
         launcher.write_text(launcher.read_text().replace("set_up() (\n", f"{steps}set_up() (\n"))
 
+    def arguments_of(self, *arguments: str) -> list[str]:
+        """What the launcher hands on, as one that is set up, on the platform noble."""
+        launcher, python = self.root / "rover", self.root / ".noble" / ".venv" / "bin" / "python"
+        python.parent.mkdir(parents=True)
+        python.write_text('#!/bin/sh\nshift 2\nprintf "%s\\n" "$@"\n')
+        python.chmod(0o755)
+        set_up = 'set_up() { :; }\nenter_workspace() { :; }\ntake_platform "$@"\n'
+        launcher.write_text(launcher.read_text().replace('take_platform "$@"\n', set_up))
+        return self.rover(*arguments).stdout.splitlines()
+
     def rover(self, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [str(self.root / "rover"), *arguments],

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rover_common.geometry import Pose
 from rover_common.grid import GridGeometry
 from rover_common.ground_truth import CELLS as TRUTH_CELLS
+from rover_common.jpeg import sharp_jpeg
 from rover_common.map_encoding import UNKNOWN, navigable_cells
 from rover_common.types import GridMap
 
@@ -71,13 +72,8 @@ def map_inset(scene: MapScene) -> Picture:
 
 
 def encode_inset(picture: Picture) -> str:
-    """A JPEG file in base64; colours at full resolution, for lines of a pixel."""
-    parameters = [
-        cv2.IMWRITE_JPEG_QUALITY, QUALITY,
-        cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444,
-    ]  # fmt: skip
-    _, data = cv2.imencode(".jpg", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR), parameters)
-    return base64.b64encode(data.tobytes()).decode("ascii")
+    """A JPEG file in base64."""
+    return base64.b64encode(sharp_jpeg(picture, QUALITY)).decode("ascii")
 
 
 def _mapped(grid: GridMap | None) -> NDArray[np.uint8]:

@@ -148,7 +148,7 @@ class SocketServer:
             ping_timeout=PING_TIMEOUT,
             monitor_clients=False,  # a connection's own timeout does that, and the sweep
             http_compression=False,
-            cors_allowed_origins=lambda origin, environ: True,  # the gate has refused all others
+            cors_allowed_origins=lambda origin, *_: True,  # the gate has refused all others
             cors_credentials=False,
             limits=self._limits,
             connections=connections,

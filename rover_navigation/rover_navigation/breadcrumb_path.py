@@ -43,7 +43,8 @@ def breadcrumb_path(
     cell = costmap.geometry.nearest_cell_to(points[:, 0], points[:, 1])
     blocked = ~costmap.free[cell]
     cost[blocked[first] | blocked[second]] *= BLOCKED_COST
-    graph = csr_array((cost, (first, second)), shape=(len(points), len(points)))
+    ends = (first.astype(np.int32), second.astype(np.int32))  # all that older SciPys' paths take
+    graph = csr_array((cost, ends), shape=(len(points), len(points)))
     _, predecessors = dijkstra(graph, directed=False, indices=0, return_predecessors=True)
     nearest = int(tree.query(position)[1])
     return _dense(points[path_nodes(predecessors, nearest)[::-1]], scale.breadcrumb_spacing)

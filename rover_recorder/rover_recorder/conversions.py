@@ -6,12 +6,12 @@ import importlib
 import struct
 from typing import Any
 
-import cv2
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import CompressedImage, Image
 
+from rover_common.jpeg import sharp_jpeg
 from rover_common.ros.conversions import NANOSECONDS, image_of, jpeg_message_of
 from rover_recorder.errors import RecordingError
 
@@ -48,13 +48,7 @@ def compressed_of(message: Image) -> CompressedImage:
 
     The colours are not subsampled: pictures made by the graph have sharp edges between colours.
     """
-    bgr = cv2.cvtColor(image_of(message), cv2.COLOR_RGB2BGR)
-    options = [
-        cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY,
-        cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444,
-    ]  # fmt: skip
-    _, data = cv2.imencode(".jpg", bgr, options)
-    return jpeg_message_of(message.header, data.tobytes())
+    return jpeg_message_of(message.header, sharp_jpeg(image_of(message), JPEG_QUALITY))
 
 
 def subscription_profile(offered: list[QoSProfile]) -> QoSProfile:

@@ -9,6 +9,7 @@ import socketio
 import socketio.packet
 from engineio.async_drivers.eventlet import WebSocketWSGI
 from eventlet import greenio, websocket, wsgi
+from socketio import base_manager
 
 
 def parameters(function: object) -> list[str]:
@@ -29,7 +30,6 @@ def parameters(function: object) -> list[str]:
         (engineio.Server._trigger_event, ["self", "event", "args", "kwargs"]),
         (engineio.Server.handle_request, ["self", "environ", "start_response"]),
         (engineio.socket.Socket.receive, ["self", "pkt"]),
-        (engineio.socket.Socket.close, ["self", "wait", "abort", "reason"]),
         (socketio.Server._handle_event, ["self", "eio_sid", "namespace", "id", "data"]),
         (socketio.Server._handle_eio_message, ["self", "eio_sid", "data"]),
         (socketio.Server._engineio_server_class, ["self"]),
@@ -37,6 +37,35 @@ def parameters(function: object) -> list[str]:
 )
 def test_what_is_overridden_or_called_has_this_signature(function, expected):
     assert parameters(function) == expected
+
+
+@pytest.mark.parametrize(
+    ("function", "expected"),
+    [
+        (engineio.socket.Socket.close, {"wait"}),
+        (engineio.socket.Socket.send, {"pkt"}),
+        (websocket.RFC6455WebSocket.__init__, {"sock", "environ", "max_frame_length"}),
+        (base_manager.BaseManager.eio_sid_from_sid, {"sid", "namespace"}),
+        (greenio.shutdown_safe, {"sock"}),
+    ],
+)
+def test_what_is_called_takes_these_arguments(function, expected):
+    assert expected <= set(parameters(function))
+
+
+def test_an_engine_has_its_sockets_by_session_and_the_class_of_its_websockets():
+    engine = engineio.Server(async_mode="eventlet", monitor_clients=False)
+    assert engine.sockets == {}
+    assert engine._async["websocket"] is WebSocketWSGI
+    session = engineio.socket.Socket(engine, "sid")
+    assert (session.sid, session.upgraded, session.queue.qsize()) == ("sid", False, 0)
+
+
+def test_an_origin_is_allowed_by_a_function_of_any_arguments():
+    """Older versions call it with the origin, newer ones also with the environ."""
+    engine = engineio.Server(cors_allowed_origins=lambda origin, *_: origin == "http://a")
+    assert engine._cors_allowed_origins({"HTTP_ORIGIN": "http://a"}) == ["http://a"]
+    assert engine._cors_allowed_origins({"HTTP_ORIGIN": "http://b"}) == []
 
 
 def test_the_http_server_takes_a_pool_and_a_protocol():

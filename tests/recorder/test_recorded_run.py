@@ -6,8 +6,8 @@ from array import array
 
 import numpy as np
 import pytest
-from nav_msgs.msg import OccupancyGrid
-from rclpy.serialization import serialize_message
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rclpy.serialization import deserialize_message, serialize_message
 from rover_interfaces.msg import RoverStatus
 
 from rover_common import topics
@@ -67,7 +67,8 @@ def test_frames_commands_and_the_last_map_are_found(tmp_path, namespace):
     assert run.frame_count == 3
     assert [frame.stamp for frame in frames] == [1, 2, 3]
     assert [frame.jpeg for frame in frames] == [b"file 1", b"file 2", b"file 3"]
-    assert frames[0].odometry == messages_of(1)[topics.ODOMETRY]
+    odometry = deserialize_message(frames[0].odometry, Odometry)  # its bytes have undefined padding
+    assert odometry == conversions.odometry_of(1, POSE, 1.0)
     assert (frames[0].pose.x, frames[0].pose.yaw) == (90.0, pytest.approx(0.5))
     assert run.commands() == {stamp: Command(throttle=stamp / 10) for stamp in (1, 2, 3)}
     stamp, grid = run.last_map()

@@ -144,7 +144,7 @@ def test_a_recorded_image_is_paired_with_the_pose_at_which_it_was_taken(tmp_path
     stages = run_our_stages(load_run(path, FrameChoice(time=0.08)))
     frame = read_recording(RUN).frames[1]
     assert (stages.pose.x, stages.pose.y) == pytest.approx((frame.pose.x, frame.pose.y))
-    picture = cv2.imread(str(frame.image_path), cv2.IMREAD_COLOR_RGB)
+    picture = cv2.cvtColor(cv2.imread(str(frame.image_path)), cv2.COLOR_BGR2RGB)
     assert np.array_equal(stages.image, picture)
     assert stages.frames[-1].run.number == 3
 

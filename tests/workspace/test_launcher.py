@@ -59,6 +59,35 @@ def test_what_is_no_interpreter_is_told(machine, python):
     )
 
 
+def test_a_platform_has_its_own_folder_and_interpreter(machine):
+    machine.replace_steps('mkdir -p "$install"')
+    path = machine.bin / "python3.12"
+    machine.fake(
+        "python3.12",
+        'case "$2" in *version_info*) echo Python 3.12;; '
+        f'*"print(sys.executable)") echo "{path}";; *) exec {PYTHON} "$@";; esac',
+    )
+    machine.fake("python3", "echo Python 3.11")
+    done = machine.rover("build", "--platform", "noble", PYTHON="python3.12")
+    assert (machine.root / ".noble" / "install" / ".stamp").exists(), done.stderr
+    assert not (machine.root / "install").exists()
+    done = machine.rover("build", "--platform=noble", PYTHON="python3")
+    assert done.stderr.endswith("; 3.12 is needed\n")
+
+
+def test_an_unknown_platform_is_told(machine):
+    done = machine.rover("test", "--platform", "plucky")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("rover: no platform 'plucky'")
+    assert not (machine.root / "log").exists()
+
+
+@pytest.mark.parametrize("command", ["run", "shell"])
+def test_a_platform_is_chosen_before_the_arguments_of_another_program(machine, command):
+    launched = machine.arguments_of(command, "--platform", "noble", "x", "--platform", "y")
+    assert launched == [command, "x", "--platform", "y"]
+
+
 def test_an_interpreter_of_another_version_is_told(machine):
     machine.fake("python3", "echo Python 3.9")
     done = machine.rover("build", PYTHON="python3")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
@@ -122,7 +123,7 @@ def _first_row(projection: GroundProjection, height: int) -> int:
     return min(max(math.floor(projection.highest_horizon) - ABOVE_HORIZON, 0), height - 2)
 
 
-def _ground_rows(obstacle: cv2.typing.MatLike) -> NDArray[np.intp]:
+def _ground_rows(obstacle: NDArray[Any]) -> NDArray[np.intp]:
     """How many pixels (width,) of each column are ground below the first obstacle."""
     upwards = cv2.transpose(cv2.flip(obstacle, 0)) > 0
     steps = upwards.argmax(axis=1)

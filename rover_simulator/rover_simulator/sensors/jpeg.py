@@ -12,12 +12,7 @@ BLOCK = 16  # [px] rows and columns that are coded together, with colour at half
 
 def encode_jpeg(image: NDArray[np.uint8]) -> bytes:
     """A JPEG file of an image (height, width, 3) RGB."""
-    parameters = [
-        cv2.IMWRITE_JPEG_QUALITY,
-        QUALITY,
-        cv2.IMWRITE_JPEG_SAMPLING_FACTOR,
-        cv2.IMWRITE_JPEG_SAMPLING_FACTOR_420,
-    ]
+    parameters = [cv2.IMWRITE_JPEG_QUALITY, QUALITY]  # 4:2:0 is the default
     _, data = cv2.imencode(".jpg", cv2.cvtColor(image, cv2.COLOR_RGB2BGR), parameters)
     return data.tobytes()
 

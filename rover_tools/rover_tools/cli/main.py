@@ -52,12 +52,14 @@ def rover() -> None:
     """Run, evaluate and measure the rover.
 
     In a checkout this is ./rover, which first sets up what is missing; PYTHON chooses its
-    interpreter, 3.11 or 3.12.
+    interpreter, 3.11 or 3.12. With `--platform noble` after a command it runs with Ubuntu 24.04's
+    versions of the libraries, installed beside the others.
 
     \b
     Examples:
       ./rover demo
       ./rover mission --seed 3 --out results/seed-3
+      ./rover test --platform noble
       ./rover COMMAND --help
     """
 

@@ -141,7 +141,7 @@ def _chosen(
 def _decoded(content: bytes, name: Path | str) -> NDArray[np.uint8]:
     """RGB (height, width, 3) of the camera's size."""
     data = np.frombuffer(content, np.uint8)
-    image = cv2.imdecode(data, cv2.IMREAD_COLOR_RGB) if data.size else None
+    image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
     if image is None:
         raise ExplainError(f"{name} is no picture that can be read")
     height, width = image.shape[:2]
@@ -150,4 +150,4 @@ def _decoded(content: bytes, name: Path | str) -> NDArray[np.uint8]:
             f"{name} is {width} x {height}; the camera's pictures are "
             f"{ROVER_CAMERA.width} x {ROVER_CAMERA.height}"
         )
-    return np.asarray(image, np.uint8)
+    return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), np.uint8)

@@ -213,8 +213,8 @@ def _image_in(newest: dict[str, Serialized], topic: str) -> Image | None:
     if found is None:
         return None
     data = np.frombuffer(found.message().data, np.uint8)
-    image = cv2.imdecode(data, cv2.IMREAD_COLOR_RGB)
-    return None if image is None else np.asarray(image, np.uint8)
+    image = cv2.imdecode(data, cv2.IMREAD_COLOR)
+    return None if image is None else np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), np.uint8)
 
 
 def _path_in(newest: dict[str, Serialized]) -> NDArray[np.float64]:

@@ -12,11 +12,12 @@ def command() -> None:
     """Set up and build what is missing, nothing more.
 
     Libraries go into .venv, the workspace into install; nothing outside of the checkout changes.
-    PYTHON chooses the interpreter.
+    PYTHON chooses the interpreter. With `--platform noble` both are below .noble.
 
     \b
     Examples:
       ./rover build
       PYTHON=python3.12 ./rover build
+      ./rover build --platform noble
     """
     call_launcher("build")

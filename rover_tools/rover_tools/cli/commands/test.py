@@ -25,6 +25,7 @@ def command(arguments: tuple[str, ...]) -> None:
     Examples:
       ./rover test
       ./rover test tests/bridge -k unity
+      ./rover test --platform noble tests/bridge
     """
     os.chdir(checkout())
     os.execv(sys.executable, [sys.executable, "-m", "pytest", *PARALLEL, *arguments])

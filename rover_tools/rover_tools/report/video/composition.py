@@ -9,7 +9,8 @@ import cv2
 import numpy as np
 
 from rover_tools.report.track import Moment
-from rover_tools.report.video.colours import INK, MUTED, PANEL, Colour, colour_of
+from rover_tools.report.video.colours import INK, MUTED, PANEL, colour_of
+from rover_tools.report.video.lettering import write
 from rover_tools.report.video.snapshot import Image
 
 WIDTH, HEIGHT = 960, 360  # [px]
@@ -18,7 +19,7 @@ MAP = (320, 360)  # [px]
 BAND = 320, 344  # [px] from the top: the states so far
 LEFT, RIGHT = 16, 624  # [px] of the figures' columns
 COLUMNS = 6
-CLOCK = 52  # [px] of the mission's time
+CLOCK = 64  # [px] of the mission's time
 LETTER = 8  # [px] of most letters of the reason
 
 
@@ -51,7 +52,6 @@ class Composition(Generic[S]):
 
     def __init__(self, scene: Scene[S]) -> None:
         self._scene = scene
-        self._font = cv2.FontFace("sans")
         self._background = np.full((HEIGHT, WIDTH, 3), PANEL, np.uint8)
         self._states: list[tuple[float, str]] = []  # times [s] since when
 
@@ -68,16 +68,16 @@ class Composition(Generic[S]):
     def _describe(self, picture: Image, snapshot: S) -> None:
         moment = snapshot.moment
         cv2.rectangle(picture, (LEFT, 184), (LEFT + 16, 200), colour_of(moment.state), cv2.FILLED)
-        end = self._write(picture, moment.state, LEFT + 26, 200, 22, 600)
+        end = write(picture, moment.state, (LEFT + 26, 200), 20, INK, bold=True)
         room = RIGHT - CLOCK - end - 28
         reason = textwrap.shorten(moment.reason, max(1, room // LETTER), placeholder="…")
-        self._write(picture, reason, end + 14, 200, 16, 400, MUTED)
+        write(picture, reason, (end + 14, 200), 14, MUTED)
         clock = f"{int(moment.time) // 60}:{int(moment.time) % 60:02d}"
-        self._write(picture, clock, RIGHT - CLOCK, 200, 22, 600)
+        write(picture, clock, (RIGHT - CLOCK, 200), 20, INK, bold=True)
         for column, (heading, value) in enumerate(self._scene.figures(snapshot)):
             x = LEFT + column * (RIGHT - LEFT) // COLUMNS
-            self._write(picture, heading, x, 246, 13, 400, MUTED)
-            self._write(picture, value, x, 272, 19, 600)
+            write(picture, heading, (x, 246), 12, MUTED)
+            write(picture, value, (x, 272), 17, INK, bold=True)
 
     def _draw_band(self, picture: Image, moment: Moment) -> None:
         """The states so far, over all of the width."""
@@ -89,17 +89,3 @@ class Composition(Generic[S]):
             left = LEFT + round((start - first) * scale)
             corners = (left, BAND[0]), (RIGHT, BAND[1])
             cv2.rectangle(picture, *corners, colour_of(state), cv2.FILLED)
-
-    def _write(
-        self,
-        picture: Image,
-        text: str,
-        x: int,
-        y: int,
-        size: int,
-        weight: int,
-        colour: Colour = INK,
-    ) -> int:
-        """Text with its baseline at y [px]; where it ends [px]."""
-        end, _ = cv2.putText(picture, text, (x, y), colour, self._font, size, weight)
-        return int(end[0])

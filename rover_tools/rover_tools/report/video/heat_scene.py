@@ -28,6 +28,7 @@ from rover_tools.report.video.colours import (
     YELLOW,
 )
 from rover_tools.report.video.composition import MAP, PANELS
+from rover_tools.report.video.lettering import write
 from rover_tools.report.video.snapshot import Image
 
 THERMAL = 160  # [px] edge of a thermal picture
@@ -52,14 +53,13 @@ class HeatScene:
         self._map = Canvas(window, *MAP, frame)
         self._truth = Canvas(window, PANELS[0] - 2 * THERMAL, PANELS[1], frame)
         self._track = TrackMemory()
-        self._font = cv2.FontFace("sans")
 
     def panels(self, snapshot: HeatSnapshot) -> Image:
         frames = [thermal_picture(frame, THERMAL) for frame in snapshot.moment.thermal]
         for number, picture in enumerate(frames, 1):
             cv2.rectangle(picture, (0, 0), (THERMAL - 1, THERMAL - 1), MUTED, 1)
             where = (8, THERMAL - 10)
-            cv2.putText(picture, f"sensor {number}", where, MUTED, self._font, 12, 400)
+            write(picture, f"sensor {number}", where, 11, MUTED)
         return np.hstack([*frames, self._true_maze(snapshot)])
 
     def map(self, snapshot: HeatSnapshot) -> Image:
