@@ -61,6 +61,7 @@ class Progress:
             "contacts": simulation.contacts,
             "distance": round(simulation.distance, 2),
             "dead_man_stops": simulation.dead_man_stops,
+            "longest_unbraked": round(simulation.longest_unbraked, 3),
         }
         print(json.dumps(line), flush=True)
 

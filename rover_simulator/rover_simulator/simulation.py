@@ -83,6 +83,11 @@ class Simulation:
         """How often the rover braked because no command came."""
         return self._dead_man.stops
 
+    @property
+    def longest_unbraked(self) -> float:
+        """[s] that the rover moved without a new command until it braked, at the longest."""
+        return self._dead_man.longest
+
     def advance(self) -> None:
         """One rendered frame: its physics, then its image."""
         if not self._held:

@@ -59,6 +59,22 @@ def test_a_rover_that_drives_without_commands_brakes_and_stands():
     assert rover.dead_man_stops == 1
 
 
+def test_the_longest_time_without_a_command_is_that_before_the_brake():
+    rover = simulation(LIMIT)
+    drive(rover, 50)
+    assert rover.longest_unbraked == pytest.approx(FRAME)
+    for _ in range(4):  # without a command
+        rover.advance()
+    assert rover.longest_unbraked == pytest.approx(5 * FRAME)
+    drive(rover, 1)
+    frames_until_the_brake(rover)
+    assert LIMIT - FRAME <= rover.longest_unbraked <= LIMIT
+    longest = rover.longest_unbraked
+    for _ in range(50):
+        rover.advance()
+    assert rover.longest_unbraked == longest
+
+
 def test_the_next_command_ends_it():
     rover = simulation(LIMIT)
     drive(rover, 5)

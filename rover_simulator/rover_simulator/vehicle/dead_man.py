@@ -16,6 +16,7 @@ class DeadMan:
         """seconds: of simulated time without a command until it brakes; infinite for never."""
         self.seconds = seconds
         self.stops = 0
+        self.longest = 0.0  # [s] that a rover in motion had neither a new command nor a brake
         self._heard: float | None = None  # [s] when the last command came
         self._braking = False
 
@@ -34,6 +35,8 @@ class DeadMan:
         silence = 0.0 if self._heard is None else time - self._heard
         due = silence > 0.0 and silence + frame > self.seconds
         if not due or not (moving or _drives(held)):
+            if moving and held.brake == 0.0:
+                self.longest = max(self.longest, silence + frame)
             return held
         self._braking = True
         self.stops += 1
