@@ -15,6 +15,7 @@ COMMANDS = "rover_tools.cli.commands"
 TABLE = {
     "demo": Entry(f"{COMMANDS}.demo", "a whole mission in a small generated canyon, scored"),
     "mission": Entry(f"{COMMANDS}.mission", "one mission in the embedded simulator, to its end"),
+    "chaos": Entry(f"{COMMANDS}.chaos", "a mission whose nodes and wires have faults by a seed"),
     "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
     "record": Entry(f"{COMMANDS}.record", "all topics of the running graph, into an MCAP file"),
     "report": Entry(f"{COMMANDS}.report", "report, video and track of a recorded mission"),

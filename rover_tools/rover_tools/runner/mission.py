@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -63,8 +64,8 @@ def run_mission(
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
-            run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
-            done = _watch(run, time_limit)
+            run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
+            done = watch_mission(run, time_limit)
             run.processes.end(SIMULATOR)  # only then has it printed its last position
             measured = read_run(folder / "log" / f"{SIMULATOR}.log")
             mission = run.watch.mission
@@ -94,16 +95,22 @@ def _report(folder: Path, world: World, result: Result) -> None:
         note(f"no report: {error}")
 
 
-def _simulator_command(run: Run, seed: int, fps: float, time_limit: float) -> list[str]:
+def simulator_command(
+    run: Run, seed: int, fps: float, time_limit: float, rate: str = "fast"
+) -> list[str]:
+    """Of the embedded simulator; rate: as `rover sim` has it."""
     return [
         sys.executable, "-m", "rover_simulator.main", "--host", run.host, "--port", str(run.port),
-        "--world", str(run.folder / "world"), "--seed", str(seed), "--rate", "fast",
+        "--world", str(run.folder / "world"), "--seed", str(seed), "--rate", rate,
         "--fps", str(fps), "--time-limit", str(START_TIME + time_limit), "--progress",
     ]  # fmt: skip
 
 
-def _watch(run: Run, time_limit: float) -> bool:
-    """Wait for the mission's end, and show its progress; whether the rover is home."""
+def watch_mission(run: Run, time_limit: float, tick: Callable[[], None] = lambda: None) -> bool:
+    """Wait for the mission's end, and show its progress; whether the rover is home.
+
+    tick: called again and again meanwhile.
+    """
     with Progress(time_limit, "s") as progress:
         while True:
             mission = run.watch.mission
@@ -114,6 +121,7 @@ def _watch(run: Run, time_limit: float) -> bool:
             if run.processes.ended(SIMULATOR) == 0:
                 return False
             run.processes.check()
+            tick()
             time.sleep(POLL_SECONDS)
 
 

@@ -1,0 +1,105 @@
+"""What a mission knew and no longer knows: each such loss by its name."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+Point = tuple[float, float]
+
+# A map takes evidence back now and then; a node that forgot its map begins with one view.
+MAP_SHARE = 0.97  # of the known cells that have to stay
+ROCK_MOVES = 1.5  # [m] between two estimates of one rock
+HOME_MOVES = 1.0  # [m] of the distance to home beside the true one
+
+
+@dataclass(frozen=True)
+class Loss:
+    """Something that was known before a fault, and not after it."""
+
+    name: str  # run, mission, samples, home, map, rocks or recovery
+    text: str
+
+
+@dataclass(frozen=True)
+class Knowledge:
+    """What the graph says at one moment."""
+
+    run: int
+    elapsed: float  # [s] of the mission
+    samples_total: int
+    samples_collected: int
+    home_error: float = 0.0  # [m] of its distance to home, against the pose of the same frame
+    cells: int = 0  # of the world map that are known
+    rocks: tuple[Point, ...] = ()  # [m] confirmed
+
+
+class Ledger:
+    """Keeps the most that was ever known, and tells each loss once."""
+
+    def __init__(self) -> None:
+        self._best: Knowledge | None = None
+
+    def losses(self, now: Knowledge) -> list[Loss]:
+        """What is lost since the last call."""
+        best = self._best or now
+        found = losses_between(best, now)
+        # A map that shrinks slowly shrinks as well; what is lost is not lost again.
+        cells = (
+            now.cells if any(loss.name == "map" for loss in found) else max(best.cells, now.cells)
+        )
+        self._best = replace(now, cells=cells)
+        return found
+
+
+def losses_between(before: Knowledge, after: Knowledge) -> list[Loss]:
+    """Every loss, in the order of what matters most."""
+    pairs = (
+        ("run", _run(before, after)),
+        ("mission", _mission(before, after)),
+        ("samples", _samples(before, after)),
+        ("home", _home(before, after)),
+        ("map", _map(before, after)),
+        ("rocks", _rocks(before, after)),
+    )
+    return [Loss(name, text) for name, text in pairs if text]
+
+
+def _run(before: Knowledge, after: Knowledge) -> str:
+    return "" if after.run == before.run else f"run {before.run} became run {after.run}"
+
+
+def _mission(before: Knowledge, after: Knowledge) -> str:
+    if after.elapsed >= before.elapsed:
+        return ""
+    return f"the mission was {before.elapsed:.1f} s old and is {after.elapsed:.1f} s old"
+
+
+def _samples(before: Knowledge, after: Knowledge) -> str:
+    kept = after.samples_collected >= before.samples_collected
+    if kept and after.samples_total == before.samples_total:
+        return ""
+    then, now = (f"{k.samples_collected} of {k.samples_total}" for k in (before, after))
+    return f"{then} samples became {now}"
+
+
+def _home(before: Knowledge, after: Knowledge) -> str:
+    if after.home_error <= HOME_MOVES or before.home_error > HOME_MOVES:
+        return ""
+    return f"the distance to home is wrong by {after.home_error:.1f} m"
+
+
+def _map(before: Knowledge, after: Knowledge) -> str:
+    if after.cells >= MAP_SHARE * before.cells:
+        return ""
+    return f"{before.cells} known cells became {after.cells}"
+
+
+def _rocks(before: Knowledge, after: Knowledge) -> str:
+    gone = [rock for rock in before.rocks if not _has(after.rocks, rock)]
+    where = ", ".join(f"({x:.1f}, {y:.1f})" for x, y in gone)
+    return f"no rock is known any more at {where}" if gone else ""
+
+
+def _has(rocks: tuple[Point, ...], rock: Point) -> bool:
+    return any(math.dist(rock, other) <= ROCK_MOVES for other in rocks)
