@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-
-Point = tuple[float, float]
+from typing import NamedTuple
 
 # A map takes evidence back now and then; a node that forgot its map begins with one view.
 MAP_SHARE = 0.97  # of the known cells that have to stay
-ROCK_MOVES = 1.5  # [m] between two estimates of one rock
+# [m] between two estimates of a rock: the first are from afar, and two tracks may become one.
+ROCK_MOVES = 3.0
+TRACK_MOVES = 6.0  # [m] the same, where the track has the same number
 HOME_MOVES = 1.0  # [m] of the distance to home beside the true one
 
 
@@ -19,6 +20,14 @@ class Loss:
 
     name: str  # run, mission, samples, home, map, rocks or recovery
     text: str
+
+
+class Rock(NamedTuple):
+    """A confirmed track."""
+
+    id: int
+    x: float  # [m]
+    y: float  # [m]
 
 
 @dataclass(frozen=True)
@@ -31,7 +40,7 @@ class Knowledge:
     samples_collected: int
     home_error: float = 0.0  # [m] of its distance to home, against the pose of the same frame
     cells: int = 0  # of the world map that are known
-    rocks: tuple[Point, ...] = ()  # [m] confirmed
+    rocks: tuple[Rock, ...] = ()
 
 
 class Ledger:
@@ -96,10 +105,11 @@ def _map(before: Knowledge, after: Knowledge) -> str:
 
 
 def _rocks(before: Knowledge, after: Knowledge) -> str:
-    gone = [rock for rock in before.rocks if not _has(after.rocks, rock)]
-    where = ", ".join(f"({x:.1f}, {y:.1f})" for x, y in gone)
+    gone = [rock for rock in before.rocks if not any(_same(rock, now) for now in after.rocks)]
+    where = ", ".join(f"({rock.x:.1f}, {rock.y:.1f})" for rock in gone)
     return f"no rock is known any more at {where}" if gone else ""
 
 
-def _has(rocks: tuple[Point, ...], rock: Point) -> bool:
-    return any(math.dist(rock, other) <= ROCK_MOVES for other in rocks)
+def _same(rock: Rock, now: Rock) -> bool:
+    moved = math.hypot(now.x - rock.x, now.y - rock.y)
+    return moved <= (TRACK_MOVES if now.id == rock.id else ROCK_MOVES)

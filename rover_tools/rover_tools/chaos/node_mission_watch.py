@@ -11,7 +11,7 @@ from rover_interfaces.msg import MissionState, RockTrackArray
 from rover_common import topics
 from rover_common.map_encoding import UNKNOWN
 from rover_common.ros import conversions, qos
-from rover_tools.chaos.losses import Knowledge, Ledger, Loss
+from rover_tools.chaos.losses import Knowledge, Ledger, Loss, Rock
 from rover_tools.runner.node_watch import GraphWatch
 
 KEPT = 500  # poses, by their stamps: more than come between two reports
@@ -69,7 +69,7 @@ class MissionWatch(GraphWatch):
             samples_collected=mission.samples_collected,
             home_error=self._home_error,
             cells=cells,
-            rocks=tuple((rock.x, rock.y) for rock in self.rocks()),
+            rocks=tuple(Rock(rock.id, rock.x, rock.y) for rock in self.rocks()),
         )
 
     def _on_odometry(self, message: Odometry) -> None:

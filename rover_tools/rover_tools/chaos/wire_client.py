@@ -16,6 +16,7 @@ from rover_tools.runner.graph import HOST
 Stopped = Callable[[], bool]
 
 TIMEOUT = 1.0  # [s] to connect, to be answered and to send
+READ = 0.2  # [s] for an answer to a shape
 PAUSE = 0.02  # [s] between two bursts
 BURST = 200  # messages of a flood at once
 MOST_FLOODED = 50_000  # messages of one fault
@@ -83,6 +84,7 @@ def send_shapes(port: int, shape: str, chance: random.Random, stopped: Stopped) 
         with contextlib.suppress(OSError), connected(port) as connection:
             connection.sendall(WIRE_SHAPES[shape](chance))
             if chance.random() < 0.5:  # others leave without a word
+                connection.settimeout(READ)
                 connection.recv(4096)
             else:
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, FORGET)
