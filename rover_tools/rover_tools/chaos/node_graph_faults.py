@@ -6,15 +6,14 @@ import math
 import time
 from array import array
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
-from geometry_msgs.msg import Point, Quaternion
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 from rover_interfaces.msg import DriveCommand, PolarArray, RockTrack, RockTrackArray
 from sensor_msgs.msg import Image, LaserScan
-from std_msgs.msg import Header
 
 from rover_common import frames, topics
 from rover_common.ros import conversions, qos
@@ -37,12 +36,8 @@ class Junk(NamedTuple):
     make: Callable[[int], Any]
 
 
-def _in_base(stamp: int) -> Header:
-    return conversions.header_of(stamp, frames.BASE)
-
-
-def _in_map(stamp: int) -> Header:
-    return conversions.header_of(stamp, frames.MAP)
+_in_base = partial(conversions.header_of, frame=frames.BASE)
+_in_map = partial(conversions.header_of, frame=frames.MAP)
 
 
 def _empty_scan(stamp: int) -> LaserScan:
@@ -66,7 +61,7 @@ def _grid_of_another_size(stamp: int) -> OccupancyGrid:
 
 def _zero_quaternion(stamp: int) -> Odometry:
     odometry = Odometry(header=conversions.header_of(stamp, frames.ODOM))
-    odometry.pose.pose.orientation = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
+    odometry.pose.pose.orientation.w = 0.0
     return odometry
 
 
@@ -79,7 +74,8 @@ def _unequal_arrays(stamp: int) -> PolarArray:
 
 
 def _rock_at_nan(stamp: int) -> RockTrackArray:
-    rock = RockTrack(id=7, position=Point(x=NAN, y=NAN), observations=9)
+    rock = RockTrack(id=7, observations=9)
+    rock.position.x = NAN
     return RockTrackArray(header=_in_map(stamp), rocks=[rock])
 
 

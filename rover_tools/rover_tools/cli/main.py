@@ -15,7 +15,6 @@ COMMANDS = "rover_tools.cli.commands"
 TABLE = {
     "demo": Entry(f"{COMMANDS}.demo", "a whole mission in a small generated canyon, scored"),
     "mission": Entry(f"{COMMANDS}.mission", "one mission in the embedded simulator, to its end"),
-    "chaos": Entry(f"{COMMANDS}.chaos", "a mission whose nodes and wires have faults by a seed"),
     "scoreboard": Entry(f"{COMMANDS}.scoreboard", "many missions without ROS, and their table"),
     "record": Entry(f"{COMMANDS}.record", "all topics of the running graph, into an MCAP file"),
     "report": Entry(f"{COMMANDS}.report", "report, video and track of a recorded mission"),
@@ -24,6 +23,7 @@ TABLE = {
     "map": Entry(f"{COMMANDS}.map", "the world map of the running graph, without ros2"),
     "explain": Entry(f"{COMMANDS}.explain", "perception's stages on one image, as a picture"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
+    "chaos": Entry(f"{COMMANDS}.chaos", "a mission whose nodes and wires have faults by a seed"),
     "heat": Entry(
         "rover_tools.cli.heat.group", "the second robot's mission: demo, mission, scoreboard, sim"
     ),
