@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 import threading
@@ -30,6 +31,7 @@ from rclpy.parameter import Parameter  # noqa: E402
 from rover_common.ros.fast_dds import use_profiles  # noqa: E402
 from rover_tools.runner.domain import free_domain  # noqa: E402
 
+HOMES = itertools.count()
 WAIT = 10.0  # [s] what a test waits at most for a thing to happen
 
 
@@ -59,6 +61,12 @@ class Ros:
         self.nodes.append(node)
         return node
 
+    def end(self, node: Node) -> None:
+        """As the end of its process."""
+        self.executor.remove_node(node)
+        self.nodes.remove(node)
+        node.destroy_node()
+
     def spin_until(self, predicate: Callable[[], Any], timeout: float = WAIT) -> bool:
         """Spin until the predicate holds; False when it does not within the timeout [s]."""
         end = time.monotonic() + timeout
@@ -86,6 +94,12 @@ def no_thread_left() -> Iterator[None]:
     while left := [t for t in threading.enumerate() if t not in before and t.is_alive()]:
         assert time.monotonic() < end, f"threads left behind: {left}"
         left[0].join(0.1)
+
+
+@pytest.fixture(autouse=True)
+def own_ros_home(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No test's nodes go on with what those of another one, or of the user, have saved."""
+    monkeypatch.setenv("ROS_HOME", str(tmp_path_factory.getbasetemp() / f"ros_home_{next(HOMES)}"))
 
 
 @pytest.fixture(scope="session")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from rover_bridge.access import Access
 from rover_bridge.transport import WireLimits
-from rover_common.config import parameter
+from rover_common.config import STATE_DIR, parameter
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,7 @@ class BridgeConfig:
     truth: str = parameter(
         "", "picture of the true map, for the colours of the map's inset; empty for none"
     )
+    state_dir: str = parameter(*STATE_DIR)
 
     def limits(self) -> WireLimits:
         """Those of the transport."""

@@ -20,6 +20,7 @@ class Counter(StrEnum):
     DEADLINE_MISSED = "deadline_missed"  # with the brake: no decision in time
     SECOND_CLIENT = "second_client"  # with the brake: another client is active
     OVERLOADED = "overloaded"  # with the brake: too many requests are pending
+    UNCONFIRMED = "unconfirmed"  # with the brake: it contradicts those before it
     FAILED = "failed"  # with the brake: the node could not handle it, which is a defect of the node
     PICKUP_SENT = "pickup_sent"  # with a pickup
     PICKUP_REFUSED = "pickup_refused"  # with the brake: nothing in reach, or the rover moves

@@ -29,8 +29,8 @@ from rover_bridge.inbox import Inbox
 from rover_bridge.node_inputs import BridgeInputs
 from rover_bridge.node_insets import InsetDrawer
 from rover_bridge.node_publishers import TelemetryPublishers
+from rover_bridge.node_runs import KeptRuns
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
-from rover_bridge.run_tracker import RunTracker
 from rover_bridge.server import SocketServer
 from rover_bridge.telemetry_clock import TelemetryClock
 from rover_bridge.transport import (
@@ -74,7 +74,7 @@ class BridgeNode(Node):
         self._insets = InsetDrawer(self, config, truth)
         self._active = ActiveClient()
         self._requests = PendingRequests(config.answer_deadline)
-        self._runs = RunTracker()
+        self._runs = KeptRuns(self, config.state_dir)
         simulated = bool(self.get_parameter("use_sim_time").value)
         self._telemetry_clock = TelemetryClock(time.time(), time.monotonic(), simulated)
         self._log = TroubleLog()
@@ -100,6 +100,8 @@ class BridgeNode(Node):
             self._server.close()
         if hasattr(self, "_insets"):
             self._insets.close()
+        if hasattr(self, "_runs"):
+            self._runs.close()
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
@@ -174,16 +176,22 @@ class BridgeNode(Node):
             return
         if anew:
             self._activate(client, now)
+        tracked = self._runs.track(telemetry, clock_time)
+        if tracked is None:
+            text = f"telemetry left out: {self._runs.contradiction}"
+            self._inputs.drop_telemetry(now, text)
+            self._refuse(client, Counter.UNCONFIRMED, text)
+            return
         self._inputs.note_telemetry(now)
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
-        run, stamp = self._runs.track(telemetry, clock_time)
+        run, stamp = tracked
         if run.start == stamp:
             self._diagnostics.counts[Counter.RUNS] = run.number
             self.get_logger().info(f"run {run.number} begins: {self._runs.reason}")
         self._topics.publish(stamp, run, telemetry)
         self._insets.follow(client, event.wire, run, telemetry.pose)
-        request = PendingRequest.of(client, stamp, time.monotonic(), telemetry)
-        self._requests.add(request)  # at last: what fails before has another answer
+        # At last: what fails before has another answer.
+        self._requests.add(PendingRequest.of(client, stamp, time.monotonic(), telemetry))
 
     def _activate(self, client: str, now: float) -> None:
         """Another client is the active one from now on."""
@@ -232,8 +240,8 @@ class BridgeNode(Node):
         self._answers.send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
     def _publish_state(self) -> None:
-        state = "disconnected" if self._active.name is None else "connected"
-        self._state.publish(String(data=state))
+        connected = self._active.name is not None
+        self._state.publish(String(data="connected" if connected else "disconnected"))
 
     def _count(self, counter: str, text: str) -> None:
         self._diagnostics.counts[counter] += 1

@@ -11,6 +11,13 @@ from typing import Any, TypeVar
 
 T = TypeVar("T", bool, int, float, str)
 
+# Default and description of the parameter state_dir, which several nodes have.
+STATE_DIR = (
+    "auto",
+    "folder for what the node knows again when it is started again in the same run; auto: one below"
+    " ROS_HOME, empty: none",
+)
+
 
 @dataclass(frozen=True)
 class ParameterInfo:

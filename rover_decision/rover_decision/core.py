@@ -119,6 +119,15 @@ class DecisionCore(Generic[FrameT, DecisionT, PlanT, OverlayT]):
         """The one of the run at hand."""
         return self._mission
 
+    @property
+    def run(self) -> Run | None:
+        """The one at hand; None before the first frame."""
+        return self._run
+
+    def resume(self, run: Run, mission: Mission[FrameT, DecisionT, PlanT, OverlayT]) -> None:
+        """Go on with a mission that was begun in this run; only before the first frame."""
+        self._run, self._mission = run, mission
+
     def step(self, frame: FrameT) -> DecisionT:
         """Decide about one frame."""
         self._follow_run(frame.run)

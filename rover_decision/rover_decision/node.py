@@ -34,9 +34,12 @@ from rover_common.ros import conversions, qos
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
+from rover_common.ros.state import NodeState
 from rover_common.ros.sync import ExactTimeSynchronizer
+from rover_common.saved_state import SavedState
+from rover_common.state_keeper import MakeState
 from rover_decision.conversions import markers_of, mission_state_of, path_message_of
-from rover_decision.missions.sample_return import configure, make_core
+from rover_decision.missions.sample_return import configure, make_core, memory_of, resume
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.node_action import RunMissionServer
 from rover_decision.node_inputs import FRAMES, DecisionInputs
@@ -51,6 +54,7 @@ FRAME_PARTS = {
     topics.ROCKS: RockTrackArray,
 }
 Parts = dict[str, Any]  # of one frame, by topic
+VERSION = 1  # of what is saved
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
 PATIENCE = 5.0  # [s] of wall time that a frame waits for the map of its plan
 
@@ -62,7 +66,11 @@ class DecisionNode(Node):
         super().__init__("decision_node", **kwargs)
         config = declare_parameters(self, DecisionConfig, self._on_config)
         lockstep = bool(self.get_parameter("use_sim_time").value)
+        self._config = config
         self._core = make_core(config, lockstep)
+        self._state_file = NodeState(self, config.state_dir, "sample return", VERSION)
+        self._newest: Frame | None = None  # decided on
+        self._saved_progress: Any = None  # of the newest frame
         self._sync = ExactTimeSynchronizer(tuple(FRAME_PARTS))
         self._waiting: deque[tuple[float, Frame]] = deque()  # [s] of wall time since when
         self._reported: tuple[int, Any] | None = None  # [ns] and state of the last report
@@ -98,9 +106,12 @@ class DecisionNode(Node):
             self._action.destroy()
         if hasattr(self, "_core"):
             self._core.close()
+        if hasattr(self, "_state_file"):
+            self._state_file.close(self._snapshot if self._newest is not None else None)
         super().destroy_node()
 
     def _on_config(self, config: DecisionConfig) -> None:
+        self._config = config
         configure(self._core, config)
         self.get_logger().info(f"parameters: {config}")
 
@@ -153,6 +164,7 @@ class DecisionNode(Node):
 
     def _on_frame(self, frame: Frame) -> None:
         failures = self._core.plan_failures
+        self._state_file.resume(frame.run, frame.stamp, self._resume)
         decision = self._core.step(frame)
         now = int(self.get_clock().now().nanoseconds)
         self._command.publish(
@@ -166,6 +178,25 @@ class DecisionNode(Node):
                 f"planner: {self._core.last_failure}", throttle_duration_sec=PATIENCE
             )
         self._report(frame, decision)
+        self._keep(frame, decision)
+
+    def _resume(self, saved: SavedState) -> None:
+        resume(self._core, self._config, saved.run, (saved.values, saved.arrays))
+
+    def _keep(self, frame: Frame, decision: Decision) -> None:
+        """Save the state now and then; the start and each sample at once."""
+        if self._core.mission.idle:  # it waits for a new run
+            self._newest = None
+            return
+        self._newest = frame
+        progress = frame.run, decision.progress.samples_collected
+        self._state_file.keep(self._snapshot, at_once=progress != self._saved_progress)
+        self._saved_progress = progress
+
+    def _snapshot(self) -> MakeState:
+        assert self._newest is not None
+        state = SavedState(self._newest.run, self._newest.stamp, *memory_of(self._core))
+        return lambda: state
 
     def _report(self, frame: Frame, decision: Decision) -> None:
         """On every change of state, and twice a second."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from typing import Any
 
 from rover_common.geometry import Pose, distance_between
 from rover_navigation.scale import Scale
@@ -21,6 +22,14 @@ class BlockedPlaces:
         self._scale = scale
         self.places: tuple[BlockedPlace, ...] = ()
         self._stops: deque[tuple[float, Pose]] = deque(maxlen=STOPS)  # [s] and where
+
+    def memory(self) -> list[Any]:
+        """All places, for JSON."""
+        return [dict(vars(place)) for place in self.places]
+
+    def restore(self, memory: list[Any]) -> None:
+        """Take what `memory` gave; raises TypeError for anything else."""
+        self.places = tuple(BlockedPlace(**place) for place in memory)
 
     def update(self, time: float) -> None:
         """Drop what is blocked no longer at a time [s]."""

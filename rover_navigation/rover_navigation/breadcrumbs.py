@@ -25,6 +25,12 @@ class Breadcrumbs:
         if not self._points or math.dist(self._points[-1], point) >= self._spacing:
             self._points.append(point)
 
+    def restore(self, points: NDArray[np.float64]) -> None:
+        """Take a trail (n, 2) [m] to go on from; raises ValueError for anything else."""
+        if points.ndim != 2 or points.shape[1] != 2:
+            raise ValueError(f"a trail of shape {points.shape}")
+        self._points = [(float(x), float(y)) for x, y in points]
+
     @property
     def points(self) -> NDArray[np.float64]:
         """(n, 2) [m] from the start on; not to be written to."""

@@ -51,6 +51,12 @@ class CoverageGrid:
         row, col, distance = row[seen], col[seen], distance[seen]
         self._distance[row, col] = np.minimum(self._distance[row, col], distance)
 
+    def restore(self, distance: NDArray[np.float32]) -> None:
+        """Take a snapshot's distances; raises ValueError for those of another grid."""
+        if distance.shape != self._distance.shape:
+            raise ValueError(f"coverage of {distance.shape} cells, not {self._distance.shape}")
+        self._distance = distance.astype(np.float32)
+
     def snapshot(self) -> Coverage:
         """A copy that stays as it is."""
         return Coverage(self._geometry, self._distance.copy())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,14 @@ class GoalHistory:
         self.missing = 0  # plans in a row without a goal
         # plans in a row that did not find the robot on the map, or with neither goal nor path home
         self.unplaced = 0
+
+    def memory(self) -> list[Any]:
+        """All goals that were observed, for JSON."""
+        return [dict(vars(place)) for place in self._observed]
+
+    def restore(self, memory: list[Any]) -> None:
+        """Take what `memory` gave; raises TypeError for anything else."""
+        self._observed = [_Observed(**place) for place in memory]
 
     @property
     def last(self) -> Goal | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rover_common.config import parameter
+from rover_common.config import STATE_DIR, parameter
 from rover_common.errors import RoverError
 from rover_common.grid import WORLD
 
@@ -61,6 +61,7 @@ class PerceptionConfig:
         minimum=0.001,
         maximum=1.6,
     )
+    state_dir: str = parameter(*STATE_DIR)
 
     def __post_init__(self) -> None:
         _check_divides(self.evidence_resolution, self.map_resolution, "map_resolution")

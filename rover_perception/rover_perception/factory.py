@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rover_common.types import CameraFrame, GridMap, PerceptionResult
+from rover_common.saved_state import Memory
+from rover_common.types import CameraFrame, GridMap, PerceptionResult, Run
 from rover_perception.baseline.perception import BaselinePerception
 from rover_perception.config import PerceptionConfig
 from rover_perception.perception import Perception
@@ -30,6 +32,12 @@ class Pipeline(Protocol):
 
     def birdseye_image(self) -> NDArray[np.uint8] | None:
         """The same from above; None where nothing can be seen."""
+
+    def memory(self) -> Callable[[], Memory]:
+        """A copy of what it knows; the call makes of it what `resume` takes."""
+
+    def resume(self, run: Run, memory: Memory) -> None:
+        """Go on with a run as it was saved; what is none raises and changes nothing."""
 
 
 def make_perception(config: PerceptionConfig) -> Pipeline:

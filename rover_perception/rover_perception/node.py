@@ -30,8 +30,11 @@ from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.message_checks import check_message
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
+from rover_common.ros.state import NodeState
 from rover_common.ros.sync import ExactTimeSynchronizer
-from rover_common.types import PerceptionResult
+from rover_common.saved_state import SavedState
+from rover_common.state_keeper import MakeState
+from rover_common.types import PerceptionResult, Run
 from rover_perception.config import PerceptionConfig
 from rover_perception.factory import make_perception
 from rover_perception.frame_validation import FrameError
@@ -42,6 +45,7 @@ FRAMES_INCOMPLETE = "frames_incomplete"
 # Of messages that are left out, by topic.
 REFUSED = {topics.IMAGE: "frame_image_encoding", topics.ODOMETRY: "frame_pose_orientation"}
 
+VERSION = 1  # of what is saved
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
 PAUSE = 0.2  # [s] of wall time without a frame after which the map is brought up to date
 
@@ -54,6 +58,9 @@ class PerceptionNode(Node):
         cv2.setNumThreads(1)  # the images are small, and the other nodes need the cores
         self._config = declare_parameters(self, PerceptionConfig)
         self._core = make_perception(self._config)
+        kind = f"perception {self._config.recipe}"
+        self._state = NodeState(self, self._config.state_dir, kind, VERSION)
+        self._newest: tuple[Run, int] | None = None  # run and stamp [ns] of the last frame
         self._join = ExactTimeSynchronizer((topics.IMAGE, topics.ODOMETRY, topics.STATUS))
         self._stamp: int | None = None
         self._map_stamp: int | None = None
@@ -124,6 +131,7 @@ class PerceptionNode(Node):
             frame = conversions.camera_frame_of(
                 parts[topics.IMAGE], parts[topics.ODOMETRY], parts[topics.STATUS]
             )
+            self._state.resume(frame.run, frame.stamp, self._resume)
             result = self._core.process(frame)
         except FrameError as error:
             self._drop(error.counter, error)
@@ -131,6 +139,23 @@ class PerceptionNode(Node):
             self._diagnostics.counts[FRAMES] += 1
             self._inputs.note(FRAMES, now)
             self._publish(result)
+            self._newest = result.run, result.stamp
+            self._state.keep(self._snapshot)
+
+    def _resume(self, saved: SavedState) -> None:
+        self._core.resume(saved.run, (saved.values, saved.arrays))
+
+    def _snapshot(self) -> MakeState:
+        """Of the map and the rocks as they are now."""
+        assert self._newest is not None
+        (run, stamp), memory = self._newest, self._core.memory()
+        return lambda: SavedState(run, stamp, *memory())
+
+    def destroy_node(self) -> None:
+        """Save the last state, and end the thread that does, then the node."""
+        if hasattr(self, "_state"):
+            self._state.close(None if self._newest is None else self._snapshot)
+        super().destroy_node()
 
     def _drop(self, counter: str, error: Exception) -> None:
         self._diagnostics.counts[counter] += 1

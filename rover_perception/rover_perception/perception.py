@@ -5,11 +5,14 @@ It keeps the map and the rock tracks of the run, and needs no ROS.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.camera import ROVER_CAMERA
 from rover_common.grid import WORLD, GridGeometry
+from rover_common.saved_state import Memory
 from rover_common.types import (
     FIRST_RUN,
     CameraFrame,
@@ -45,16 +48,16 @@ class Perception:
         self._run_stage = run_stage
         geometry = GridGeometry.of_world(config.evidence_resolution)
         self._field_of_view = FieldOfView(geometry, config.max_range)
-        self._begin(FIRST_RUN)
+        self._begin(FIRST_RUN, EvidenceGrid(self._field_of_view), RockTracks())
 
-    def _begin(self, run: Run) -> None:
-        """Start with an empty map, no rock tracks and no history of frames."""
+    def _begin(self, run: Run, evidence: EvidenceGrid, rocks: RockTracks) -> None:
+        """Start with this map and these rock tracks, and no history of frames."""
         config = self._config
         self._run = run
         self._validator = FrameValidator(ROVER_CAMERA, WORLD.size, config.image_lag)
-        self._evidence = EvidenceGrid(self._field_of_view)
-        self._maps = OccupancyMaps(self._evidence, config.map_resolution)
-        self._rocks = RockTracks()
+        self._evidence = evidence
+        self._maps = OccupancyMaps(evidence, config.map_resolution)
+        self._rocks = rocks
         self._schedule = MapSchedule(config.map_period)
         self._segmentation: Segmentation | None = None
 
@@ -65,7 +68,7 @@ class Perception:
         which leaves map and tracks unchanged.
         """
         if frame.run.number != self._run.number:
-            self._begin(frame.run)
+            self._begin(frame.run, EvidenceGrid(self._field_of_view), RockTracks())
         run, image, max_range = self._run_stage, frame.image, self._config.max_range
         pose = run("validation", self._validator.validate, frame)
         projection = run("projection", GroundProjection.of, ROVER_CAMERA, pose)
@@ -83,6 +86,22 @@ class Perception:
         rock = run("rock_polar", polar_array, rocks.x, rocks.y)
         self._segmentation = Segmentation(image, mask, columns, projection)
         return self._result(frame, scan, nav, rock)
+
+    def memory(self) -> Callable[[], Memory]:
+        """A copy of map and rocks; the call makes of it what `resume` takes."""
+        rocks, arrays = self._rocks.memory(), self._evidence.memory()
+        return lambda: ({"rocks": rocks}, arrays())
+
+    def resume(self, run: Run, memory: Memory) -> None:
+        """Go on with a run as it was saved.
+
+        Raises ValueError, TypeError or KeyError for what is none, and changes nothing then.
+        """
+        values, arrays = memory
+        evidence, rocks = EvidenceGrid(self._field_of_view), RockTracks()
+        evidence.restore(arrays)
+        rocks.restore(values["rocks"])
+        self._begin(run, evidence, rocks)
 
     @property
     def segmentation(self) -> Segmentation | None:

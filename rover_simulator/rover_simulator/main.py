@@ -51,6 +51,8 @@ class Rate(click.ParamType):
 @click.option("--save-insets", "insets", metavar="DIR",
               type=click.Path(file_okay=False, path_type=Path),
               help="Save the insets that the server sends, and the screen with them.")  # fmt: skip
+@click.option("--state", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
+              help="Go on from this file, if it is there, and keep it up to date.")  # fmt: skip
 @click.option("--progress", is_flag=True, help="Print a JSON line per simulated second.")
 def command(
     host: str,
@@ -62,6 +64,7 @@ def command(
     dead_man: float,
     progress: bool,
     insets: Path | None,
+    state: Path | None,
 ) -> None:
     """Run the embedded simulator alone, as a client of any rover server.
 
@@ -80,7 +83,7 @@ def command(
     simulate(
         world.load(), world.seed, host=host, port=port, rate=rate, fps=fps,
         time_limit=math.inf if time_limit is None else time_limit, dead_man=dead_man,
-        progress=progress, insets=insets,
+        progress=progress, insets=insets, state=state,
     )  # fmt: skip
 
 

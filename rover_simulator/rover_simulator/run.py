@@ -8,6 +8,7 @@ import signal
 import sys
 from pathlib import Path
 
+from rover_simulator.saved_simulation import SavedSimulation
 from rover_simulator.sensors.screen import SavedScreen
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.vehicle import STEP
@@ -78,12 +79,14 @@ def simulate(
     dead_man: float,
     progress: bool,
     insets: Path | None,
+    state: Path | None = None,
 ) -> None:
     """Drive in the world as the server commands.
 
     rate: times real time, None as fast as the server answers; fps: frames per simulated second;
     time_limit [s]: of simulated time; dead_man [s]: of it without a command until the rover brakes,
-    0 for never; insets: folder to save into what the screen would show.
+    0 for never; insets: folder to save into what the screen would show;
+    state: file to go on from, if it is there, and to keep up to date.
     """
     stop = Stop()
     frame_steps = frame_steps_of(fps)
@@ -91,9 +94,20 @@ def simulate(
     if insets is not None:
         simulation.show_insets(SavedScreen(insets).show)
     reports = Progress(simulation, progress)
-    pacing: Pacing = LockstepPacing(simulation, reports.update)
+    on_frame = [reports.update]
+    if state is not None:
+        saved = SavedSimulation(state, world, simulation)
+        for refusal in saved.resume():
+            print(f"rover sim: {refusal}", file=sys.stderr)
+        on_frame.append(saved.update)
+
+    def update() -> None:
+        for part in on_frame:
+            part()
+
+    pacing: Pacing = LockstepPacing(simulation, update)
     if rate is not None:
-        pacing = TimedPacing(simulation, reports.update, frame_steps * STEP / rate)
+        pacing = TimedPacing(simulation, update, frame_steps * STEP / rate)
     client = UnityClient(host, port, _print_refusal)
     run_connected(client, pacing, lambda: stop() or simulation.time >= time_limit)
     reports.report()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import astuple
 from typing import Any
 
 from rover_common.geometry import Pose
@@ -21,6 +22,7 @@ from rover_simulator.world import boulders
 from rover_simulator.world.terrain import terrain_of
 from rover_simulator.world.world import World
 
+RESUME_LEAP = 2.0  # [s] longer than from one memory to the next
 START_TIME = 1.0  # [s] a ROS clock that reads zero counts as not yet set
 INSETS = ("inset_image1", "inset_image2", "inset_image3")  # the original shows them on its screen
 
@@ -69,6 +71,40 @@ class Simulation:
     def show_insets(self, show: ShowInsets) -> None:
         """Hand over the insets of each command, and tell the server that they are shown."""
         self._show_insets = show
+
+    def memory(self) -> dict[str, Any]:
+        """What a simulation of the same world needs to go on, for JSON."""
+        vehicle = self._vehicle
+        return {
+            "time": self.time,
+            "pose": astuple(vehicle.pose),
+            "speed": vehicle.speed,
+            "controls": astuple(self._controls),
+            "samples": self._arm.on_the_ground,
+            "contacts": self.contacts,
+            "distance": self.distance,
+        }
+
+    def resume(self, memory: dict[str, Any]) -> None:
+        """Go on as `memory` has it, a little later; only before the first frame.
+
+        The clock leaps by RESUME_LEAP: what was sent after the memory was made lies behind it. A
+        pickup in progress begins anew. Raises ValueError, TypeError or KeyError for anything else.
+        """
+        pose, controls = Pose(*memory["pose"]), Controls(*memory["controls"])
+        samples = [(float(x), float(y)) for x, y in memory["samples"]]
+        vehicle = Vehicle(pose)
+        vehicle.roll_on(float(memory["speed"]), controls)
+        self.contacts, self.distance = int(memory["contacts"]), float(memory["distance"])
+        self.time = float(memory["time"]) + RESUME_LEAP
+        self._vehicle, self._controls = vehicle, controls
+        for place in self._arm.samples:
+            if place not in samples:
+                self._renderer.hide_sample(*place)
+        self._arm = Arm(samples)
+        self._ground = self._ground_under()
+        self._captured_at = None
+        self._next_image = self._capture()
 
     @property
     def pose(self) -> Pose:

@@ -84,7 +84,7 @@ def test_simulated_time_is_the_stamp_and_the_clock(ros, bridge, watcher):
 def test_a_reloaded_scene_begins_a_run_and_the_clock_never_falls_back(ros, bridge, watcher):
     clocks = watcher.watch(ros, Clock, "/clock", EVERY_CLOCK)
     before = [telemetry(sim_time=time) for time in (100.0, 100.1)]
-    reloaded = [telemetry(sim_time=time) for time in (1.0, 1.1)]
+    reloaded = [telemetry(sim_time=time) for time in (0.9, 0.95, 1.0, 1.1)]  # two are left out
     answers_to(ros, bridge.port, *before)
     answers_to(ros, bridge.port, *reloaded)  # on another socket
     statuses = bridge.decider.statuses
@@ -108,9 +108,18 @@ def test_a_simulator_that_connects_again_goes_on_with_its_run(ros, bridge):
 
 
 def test_a_simulator_without_a_clock_begins_a_run_where_its_rover_was_placed(ros, bridge):
-    answers_to(ros, bridge.port, telemetry(), telemetry(), telemetry(pose=FAR_AWAY))
-    assert ros.spin_until(lambda: len(bridge.decider.statuses) == 3)
-    assert [status.run for status in bridge.decider.statuses] == [1, 1, 2]
+    answers_to(ros, bridge.port, telemetry(), *[telemetry(pose=FAR_AWAY)] * 3)
+    assert ros.spin_until(lambda: len(bridge.decider.statuses) == 2)
+    assert [status.run for status in bridge.decider.statuses] == [1, 2]
+
+
+def test_a_single_wrong_pose_is_left_out_answered_with_the_brake_and_counted(ros, bridge):
+    wires = telemetry(), telemetry(pose=FAR_AWAY), telemetry()
+    answers = answers_to(ros, bridge.port, *wires)
+    assert [float(answer.data["brake"]) for answer in answers] == [0.0, 1.0, 0.0]
+    assert ros.spin_until(lambda: len(bridge.decider.statuses) == 2)
+    assert [status.run for status in bridge.decider.statuses] == [1, 1]
+    assert bridge.node._diagnostics.counts[Counter.UNCONFIRMED] == 1
 
 
 def test_a_command_with_new_run_begins_one_run(ros, bridge):
@@ -139,7 +148,8 @@ def test_a_late_command_of_an_ended_run_begins_no_run(ros, bridge):
     publisher = late.create_publisher(DriveCommand, topics.COMMAND, qos.FRAME)
     assert ros.spin_until(lambda: publisher.get_subscription_count() > 0)
     answers_to(ros, bridge.port, telemetry(sim_time=100.0))
-    answers_to(ros, bridge.port, telemetry(sim_time=1.0))  # reloaded, on another socket
+    reloaded = [telemetry(sim_time=1.0)] * 3
+    answers_to(ros, bridge.port, *reloaded)  # on another socket
     assert ros.spin_until(lambda: len(bridge.decider.statuses) == 2)
     publisher.publish(
         conversions.command_message_of(0, 0, Run(1, 0), Command(brake=1.0, new_run=True))

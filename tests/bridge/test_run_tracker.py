@@ -3,50 +3,34 @@
 from dataclasses import replace
 from itertools import pairwise
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tracked_runs import SECOND, number, telemetry, track, tracker_at_ten
 
-from rover_bridge.run_tracker import CLOCK_FELL_BACK, POSE_JUMPED, RunTracker
-from rover_common.geometry import Pose
-from rover_common.types import Telemetry
+from rover_bridge.run_tracker import (
+    AGREEING,
+    CLOCK_FELL_BACK,
+    CLOCK_LEAPT,
+    POSE_JUMPED,
+    POSE_OUTLIER,
+    RunTracker,
+)
 from rover_common.vehicle import ROVER
-
-SECOND = 1_000_000_000  # [ns]
-
-
-def telemetry(
-    x: float = 100.0, y: float = 80.0, samples: int = 6, sim_time: float | None = 0.0
-) -> Telemetry:
-    return Telemetry(
-        pose=Pose(x, y, 0.0),
-        speed=0.0,
-        throttle=0.0,
-        brake=0.0,
-        steering_angle=0.0,
-        near_sample=False,
-        picking_up=False,
-        sample_count=samples,
-        samples=np.zeros((samples, 2)),
-        jpeg=b"",
-        image=np.zeros((1, 1, 3), np.uint8),
-        sim_time=sim_time,
-    )
 
 
 @pytest.fixture
 def tracker() -> RunTracker:
-    """In its first run, at 10 s."""
-    tracker = RunTracker()
-    run, stamp = tracker.track(telemetry(), 10.0)
-    assert (run.number, run.start, stamp) == (1, 10 * SECOND, 10 * SECOND)
-    return tracker
+    return tracker_at_ten()
 
 
-def number(tracker: RunTracker, time: float, **changes: float | None) -> int:
-    """The run that a telemetry at this time [s] belongs to."""
-    return tracker.track(telemetry(**changes), time)[0].number
+STRAYS = [
+    {"x": 150.0},
+    {"x": 100.0 + POSE_OUTLIER + 2.0},
+    {"samples": 7},
+    {"samples": 0},
+    {"sim_time": None},
+]
 
 
 def test_a_clock_that_falls_back_begins_a_run(tracker):
@@ -72,14 +56,49 @@ def test_a_rover_that_drives_at_full_speed_stays_in_its_run(tracker):
 
 def test_a_sample_count_that_rises_begins_a_run(tracker):
     assert number(tracker, 11.0, samples=5) == 1
-    assert number(tracker, 12.0, samples=5) == 1
-    assert number(tracker, 13.0, samples=6) == 2
+    for step in range(AGREEING):
+        assert number(tracker, 12.0 + step, samples=5) == 1
+    assert number(tracker, 20.0, samples=6) == 2
 
 
 def test_a_clock_of_another_source_begins_a_run(tracker):
     assert number(tracker, 1.7e9, sim_time=None) == 2
     assert number(tracker, 1.7e9 + 1, sim_time=None) == 2
     assert number(tracker, 1.7e9 + 2) == 3
+
+
+@pytest.mark.parametrize("stray", STRAYS, ids=str)
+def test_a_single_stray_telemetry_and_the_way_back_change_nothing(tracker, stray):
+    before = track(tracker, 10.0)[0]
+    for start in (10.1, 10.5):
+        for step in range(AGREEING - 1):
+            assert tracker.track(telemetry(**stray), start + 0.04 * step) is None
+            assert tracker.contradiction
+        assert tracker.track(telemetry(), start + 0.2)[0] == before
+
+
+@pytest.mark.parametrize("stray", [9.0, 10.0 + 2 * CLOCK_LEAPT])
+def test_a_single_stray_clock_and_the_way_back_change_nothing(tracker, stray):
+    before = track(tracker, 10.0)[0]
+    assert tracker.track(telemetry(), stray) is None
+    assert tracker.track(telemetry(), 10.1)[0] == before
+
+
+def test_one_telemetry_with_a_sample_too_few_makes_the_next_one_no_new_run(tracker):
+    assert number(tracker, 10.1, samples=5) == 1
+    assert tracker.track(telemetry(samples=6), 10.2)[0].number == 1
+
+
+def test_strays_that_do_not_agree_begin_no_run(tracker):
+    for step in range(3 * AGREEING):
+        assert tracker.track(telemetry(x=10.0 + 80.0 * (step % 2)), 10.1) is None
+    assert tracker.track(telemetry(), 10.2)[0].number == 1
+
+
+def test_a_place_that_several_telemetries_agree_on_is_confirms_without_a_new_run(tracker):
+    x = 100.0 + 2 * POSE_OUTLIER
+    assert number(tracker, 10.0, x=x) == 1
+    assert tracker.track(telemetry(x=x), 10.1)[0].number == 1
 
 
 def test_a_request_begins_a_run_with_the_next_telemetry(tracker):
@@ -113,20 +132,20 @@ def test_a_request_without_a_run_is_ignored():
 
 
 def test_stamps_are_the_clock_and_differ_by_a_nanosecond_where_it_stands(tracker):
-    stamps = [tracker.track(telemetry(), time)[1] for time in (10.0, 10.0, 10.5)]
+    stamps = [track(tracker, time)[1] for time in (10.0, 10.0, 10.5)]
     assert stamps == [10 * SECOND + 1, 10 * SECOND + 2, 10 * SECOND + SECOND // 2]
 
 
 def test_a_run_whose_clock_falls_back_continues_after_the_stamps_before(tracker):
-    run, stamp = tracker.track(telemetry(), 1.0)
+    run, stamp = track(tracker, 1.0)
     assert run.number == 2
     assert run.start == stamp == 10 * SECOND + 1
-    assert tracker.track(telemetry(), 1.5)[1] == stamp + SECOND // 2  # time passes as it did
+    assert track(tracker, 1.5)[1] == stamp + SECOND // 2  # time passes as it did
 
 
 def test_a_run_whose_clock_is_ahead_has_the_clock_as_its_stamp(tracker):
-    tracker.track(telemetry(), 1.0)
-    run, stamp = tracker.track(telemetry(x=0.0, y=0.0), 20.0)
+    track(tracker, 1.0)
+    run, stamp = track(tracker, 20.0, x=0.0, y=0.0, sim_time=None)
     assert run.number == 3
     assert run.start == stamp == 20 * SECOND
 
@@ -152,7 +171,10 @@ def test_stamps_rise_and_belong_to_their_run_whatever_the_simulator_sends(steps)
         if requested and runs:
             tracker.request(runs[-1].number)
         wire = replace(telemetry(x=x, samples=samples), sim_time=time if simulated else None)
-        run, stamp = tracker.track(wire, time)
+        tracked = tracker.track(wire, time)
+        if tracked is None:
+            continue
+        run, stamp = tracked
         runs.append(run)
         stamps.append(stamp)
     assert all(a < b for a, b in pairwise(stamps))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from rover_common.map_encoding import navigable_cells
 from rover_common.ros import conversions, qos
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
-from rover_simulator.recordings.recording import read_recording
+from rover_simulator.recordings.recording import RecordedFrame, read_recording
 from rover_simulator.recordings.replay import play
 from rover_simulator.wire.unity_client import UnityClient
 
@@ -116,3 +117,36 @@ def test_services(ros, graph):
     assert call("resume").success
     assert call("return_home").message.endswith("RETURN_HOME")
     assert call("reset").success
+
+
+def moved(frame: RecordedFrame, x: float = 50.0) -> RecordedFrame:
+    """The same frame somewhere else."""
+    return replace(frame, pose=replace(frame.pose, x=frame.pose.x + x))
+
+
+def test_a_stray_pose_and_the_way_back_leave_map_and_mission_as_they_were(ros, graph, drive):
+    """The bridge leaves the frame out; no node forgets anything."""
+    perception, decision = ros.nodes[1:3]
+    frames = list(drive.frames)
+    for index in (FRAMES // 2, FRAMES - 2):
+        frames[index] = moved(frames[index])
+    assert replay(ros, graph.port, replace(drive, frames=tuple(frames))).frames == FRAMES
+    assert ros.spin_until(lambda: perception._diagnostics.counts["frames"] == FRAMES - 2)
+    cells = perception._core.world_map().cells
+    assert navigable_cells(cells)[96:104, 92:100].mean() > 0.9  # also from before the first one
+    assert (cells[:, 120:] < 0).all()
+    assert graph._diagnostics.counts["runs"] == 1
+    assert decision._core.mission._parts.home == pytest.approx((90.0, 100.0))
+    assert decision._core.mission_number == 1
+
+
+def test_a_lasting_jump_is_a_new_run(ros, graph, drive):
+    perception, decision = ros.nodes[1:3]
+    frames = [moved(f) if i >= FRAMES // 2 else f for i, f in enumerate(drive.frames)]
+    replay(ros, graph.port, replace(drive, frames=tuple(frames)))
+    assert ros.spin_until(lambda: perception._diagnostics.counts["frames"] == FRAMES - 2)
+    cells = perception._core.world_map().cells
+    assert (cells[:, :130] < 0).all()
+    assert navigable_cells(cells)[98:102, 148:151].mean() > 0.9
+    assert graph._diagnostics.counts["runs"] == 2
+    assert ros.spin_until(lambda: decision._core.mission_number == 2)

@@ -7,6 +7,7 @@ was seen as ground once is navigable, whatever was seen there since.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from rover_common.camera import ROVER_CAMERA
 from rover_common.geometry import Pose
 from rover_common.grid import WORLD, GridGeometry
 from rover_common.map_encoding import UNKNOWN
+from rover_common.saved_state import Memory
 from rover_common.types import FIRST_RUN, CameraFrame, GridMap, PerceptionResult, Run
 from rover_perception.baseline.rock_list import RockList
 from rover_perception.baseline.thresholds import ground_mask, rock_mask
@@ -39,16 +41,36 @@ class BaselinePerception:
     def __init__(self, config: PerceptionConfig) -> None:
         self._config = config
         self._geometry = GridGeometry.of_world(config.map_resolution)
-        self._begin(FIRST_RUN)
+        self._begin(FIRST_RUN, self._no_counts(), RockList())
 
-    def _begin(self, run: Run) -> None:
+    def _begin(self, run: Run, counts: NDArray[np.int32], rocks: RockList) -> None:
         self._run = run
         self._validator = FrameValidator(ROVER_CAMERA, WORLD.size, IMAGE_LAG)
         self._schedule = MapSchedule(self._config.map_period)
-        self._rocks = RockList()
+        self._rocks = rocks
         self._image: NDArray[np.uint8] | None = None
         # (rows, cols, 3): in how many frames each cell was ground, obstacle and rock
-        self.counts = np.zeros((self._geometry.rows, self._geometry.cols, 3), np.int32)
+        self.counts = counts
+
+    def _no_counts(self) -> NDArray[np.int32]:
+        return np.zeros((self._geometry.rows, self._geometry.cols, 3), np.int32)
+
+    def memory(self) -> Callable[[], Memory]:
+        """A copy of map and rocks; the call makes of it what `resume` takes."""
+        rocks, counts = self._rocks.memory(), self.counts.copy()
+        return lambda: ({"rocks": rocks}, {"counts": counts})
+
+    def resume(self, run: Run, memory: Memory) -> None:
+        """Go on with a run as it was saved.
+
+        Raises ValueError, TypeError or KeyError for what is none, and changes nothing then.
+        """
+        values, arrays = memory
+        counts, rocks = arrays["counts"], RockList()
+        if counts.shape != self.counts.shape:
+            raise ValueError(f"counts of {counts.shape} cells, not {self.counts.shape}")
+        rocks.restore(values["rocks"])
+        self._begin(run, counts.astype(np.int32), rocks)
 
     def process(self, frame: CameraFrame) -> PerceptionResult:
         """Add one frame to the map; a frame of another run starts anew first.
@@ -56,7 +78,7 @@ class BaselinePerception:
         Raises FrameError for a frame that cannot be used, which leaves the map unchanged.
         """
         if frame.run.number != self._run.number:
-            self._begin(frame.run)
+            self._begin(frame.run, self._no_counts(), RockList())
         pose = self._validator.validate(frame)
         self._image = frame.image
         view = top_view(frame.image)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
+from typing import Any
 
 from rover_common.types import RockTrack
 
@@ -20,6 +21,16 @@ class RockList:
     @property
     def rocks(self) -> tuple[RockTrack, ...]:
         return tuple(self._rocks)
+
+    def memory(self) -> list[Any]:
+        """All of them, for JSON."""
+        return [asdict(rock) for rock in self._rocks]
+
+    def restore(self, memory: list[Any]) -> None:
+        """Take what `memory` gave; raises TypeError or KeyError for anything else."""
+        self._rocks = [
+            RockTrack(**{**rock, "covariance": tuple(rock["covariance"])}) for rock in memory
+        ]
 
     def add(self, x: float, y: float, stamp: int) -> None:
         """A rock was seen at a place [m] of the map frame."""

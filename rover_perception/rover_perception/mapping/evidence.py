@@ -9,6 +9,8 @@ near one.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -70,6 +72,37 @@ class EvidenceGrid:
         beyond = np.flatnonzero(~is_free & columns.blocked[column])
         self._add_blocked(projection, cell[beyond], margin[beyond], below[beyond], error[beyond])
         return x, y
+
+    def memory(self) -> Callable[[], dict[str, NDArray]]:
+        """A copy of all evidence; the call makes arrays of it, of the observed cells alone."""
+        sums = [plane.copy() for plane in self._planes]
+
+        def arrays() -> dict[str, NDArray]:
+            flat = np.stack(sums).reshape(len(sums), -1)
+            cells = np.flatnonzero(flat.any(axis=0))
+            return {"cells": cells.astype(np.int32), "evidence": flat[:, cells]}
+
+        return arrays
+
+    def restore(self, arrays: Mapping[str, NDArray]) -> None:
+        """Take what `memory` made; raises ValueError or KeyError for arrays of another grid."""
+        cells, evidence = arrays["cells"], arrays["evidence"]
+        size = self.free.size
+        if evidence.shape != (len(self._planes), len(cells)) or (len(cells) and cells[-1] >= size):
+            raise ValueError(f"evidence of another grid than {self.free.shape}")
+        for plane, values in zip(self._planes, evidence, strict=True):
+            plane.reshape(-1)[cells] = values
+        self._changed = Region.of_grid(self.geometry)
+
+    @property
+    def _planes(self) -> tuple[NDArray[np.float32], ...]:
+        return (
+            self.free,
+            self.blocked,
+            self.free_observations,
+            self.base_observations,
+            self.edge_observations,
+        )
 
     def take_changed(self) -> Region | None:
         """The cells that may have changed since the call before; None if there are none."""

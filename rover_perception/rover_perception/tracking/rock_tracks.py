@@ -13,6 +13,7 @@ when its lines meet in one point.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -63,6 +64,28 @@ class Track:
         if other.last_seen >= self.last_seen:
             self.direction, self.last_seen = other.direction, other.last_seen
         self._solve()
+
+    def memory(self) -> dict[str, Any]:
+        """What it is made of, for JSON."""
+        return {
+            "id": self.id,
+            "quadric": self.quadric.tolist(),
+            "observations": self.observations,
+            "direction": self.direction.tolist(),
+            "last_seen": self.last_seen,
+        }
+
+    @classmethod
+    def of_memory(cls, memory: dict[str, Any]) -> Track:
+        """The inverse of `memory`."""
+        track = cls.__new__(cls)
+        track.id = int(memory["id"])
+        track.quadric = np.array(memory["quadric"], float).reshape(4, 4)
+        track.observations = int(memory["observations"])
+        track.direction = np.array(memory["direction"], float).reshape(3)
+        track.last_seen = int(memory["last_seen"])
+        track._solve()
+        return track
 
     def _solve(self) -> None:
         total = self.quadric + PRIOR
@@ -121,11 +144,24 @@ class RockTracks:
                 match.join(new)
                 self._merge(match)
         if sightings:
-            self._confirmed = tuple(track.report() for track in self.tracks if track.confirmed)
+            self._report()
+
+    def memory(self) -> dict[str, Any]:
+        """All tracks, for JSON."""
+        return {"next_id": self._next_id, "tracks": [track.memory() for track in self.tracks]}
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        tracks = [Track.of_memory(track) for track in memory["tracks"]]
+        self._next_id, self.tracks = int(memory["next_id"]), tracks
+        self._report()
 
     def confirmed(self) -> tuple[RockTrack, ...]:
         """The rocks that enough frames agree on."""
         return self._confirmed
+
+    def _report(self) -> None:
+        self._confirmed = tuple(track.report() for track in self.tracks if track.confirmed)
 
     def _nearest(self, new: Track) -> Track | None:
         near = [track for track in self.tracks if track.near(new)]

@@ -31,6 +31,15 @@ class Arm:
         self.frozen = False  # a pickup without a sample near never ends
 
     @property
+    def on_the_ground(self) -> list[Point]:
+        """The samples where they lie, one in the gripper where it lay."""
+        held = self._held
+        return [
+            held.found if held is not None and index == held.index else sample
+            for index, sample in enumerate(self.samples)
+        ]
+
+    @property
     def picking_up(self) -> bool:
         return self._left > 0.0 or self.frozen
 

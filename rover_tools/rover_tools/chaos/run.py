@@ -23,6 +23,7 @@ from rover_tools.evaluation.mission_result import mission_result, truth_of
 from rover_tools.evaluation.results import Result, write_results
 from rover_tools.evaluation.strategy import Strategy
 from rover_tools.output import note
+from rover_tools.runner import mission_state
 from rover_tools.runner.graph import NODES, default_parameters
 from rover_tools.runner.mission import (
     MAP_SECONDS,
@@ -61,7 +62,9 @@ def run_chaos(world: World, chaos: Chaos, folder: Path) -> Result:
     world.save(folder / "world")
     strategy = Strategy.of_parameters(chaos.parameters or default_parameters())
     watch, start = partial(MissionWatch, home=(world.start.x, world.start.y)), time.monotonic()
-    with running_graph(folder, {}, chaos.parameters, watch) as run:
+    mission_state.end(folder)  # what another mission has left there
+    states = mission_state.state_parameters(folder)
+    with running_graph(folder, states, chaos.parameters, watch) as run:
         assert isinstance(run.watch, MissionWatch)
         run.processes.respawn(NODES, RESPAWNS)
         run.processes.start(SIMULATOR, _simulator_command(run, chaos))
@@ -75,6 +78,7 @@ def run_chaos(world: World, chaos: Chaos, folder: Path) -> Result:
         stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
         grid, rocks = run.watch.wait_map(stamp, MAP_SECONDS), run.watch.rocks()
         respawns = run.processes.respawns()
+    mission_state.end(folder)
     scored = mission_result(
         world, str(strategy), chaos.seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,

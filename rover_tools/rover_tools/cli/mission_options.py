@@ -20,7 +20,7 @@ from rover_tools.cli.options import (
     strategy_option,
     way_home_option,
 )
-from rover_tools.output import print_result, result_folder
+from rover_tools.output import note, print_result, result_folder
 
 if TYPE_CHECKING:
     from rover_tools.evaluation.results import Result
@@ -55,16 +55,42 @@ class MissionOptions:
         """Run the mission and print its result; returns it and its folder, named by its kind."""
         from rover_tools.evaluation.results import summary
         from rover_tools.runner.mission import run_mission
+        from rover_tools.runner.mission_state import STATE
 
         loaded, strategy = world.load(), self.chosen_strategy()
         folder = result_folder(kind, self.out)
-        result = run_mission(
-            loaded, world.seed, self.time_limit, folder, parameters=self.params,
-            strategy=strategy, fps=self.fps, page=not self.no_dashboard,
-            open_page=self.open_page, record=not self.no_record,
-        )  # fmt: skip
+        try:
+            result = run_mission(
+                loaded, world.seed, self.time_limit, folder, parameters=self.params,
+                strategy=strategy, fps=self.fps, page=not self.no_dashboard,
+                open_page=self.open_page, record=not self.no_record,
+            )  # fmt: skip
+        except BaseException:
+            if (folder / STATE).exists():
+                note(f"interrupted; go on with: ./rover mission --resume {folder}")
+            raise
         print_result(result, self.as_json, summary(result))
         return result, folder
+
+    def resume(self, folder: Path) -> Result:
+        """Go on with the mission that was interrupted there, as it was started.
+
+        Raises ResumeError, TruthError or WorldError.
+        """
+        from rover_simulator.world.world import World
+        from rover_tools.evaluation.results import summary
+        from rover_tools.runner.mission import run_mission
+        from rover_tools.runner.mission_state import begun
+
+        setup = begun(folder)
+        result = run_mission(
+            World.load(folder / "world"), setup.seed, setup.time_limit, folder,
+            parameters=setup.parameters_file, strategy=setup.strategy, fps=setup.fps,
+            page=not self.no_dashboard, open_page=self.open_page, record=not self.no_record,
+            resume=True,
+        )  # fmt: skip
+        print_result(result, self.as_json, summary(result))
+        return result
 
 
 def mission_options(time_limit: float) -> Callable[[F], F]:

@@ -55,7 +55,8 @@ def start_graph(
     """
     for node in nodes:
         package = NODES[node]
-        values = {"use_sim_time": True, **overrides.get(node, {})}
+        # Whoever wants to go on after a crash says where states are kept.
+        values = {"use_sim_time": True, "state_dir": "", **overrides.get(node, {})}
         if node == "bridge_node":
             values |= {"host": HOST, "port": port}
         processes.start(node, node_command(package, node, parameters_file, values))
@@ -76,4 +77,6 @@ def node_command(
 
 
 def _yaml_scalar(value: object) -> str:
+    if value == "":
+        return '""'
     return str(value).lower() if isinstance(value, bool) else str(value)

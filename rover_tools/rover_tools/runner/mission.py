@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from rover_common.types import GridMap
 from rover_recorder.errors import RecordingError
 from rover_recorder.reader import FOLDER
 from rover_simulator.options import FPS
@@ -21,7 +22,9 @@ from rover_tools.evaluation.strategy import Strategy
 from rover_tools.output import note
 from rover_tools.progress import Progress
 from rover_tools.report.recording_report import write_report
+from rover_tools.runner import mission_state
 from rover_tools.runner.graph import NODES, default_parameters
+from rover_tools.runner.mission_state import MissionSetup
 from rover_tools.runner.node_watch import GraphWatch
 from rover_tools.runner.page import start_page
 from rover_tools.runner.recording import recording
@@ -47,31 +50,30 @@ def run_mission(
     page: bool = False,
     open_page: bool = False,
     record: bool = False,
+    resume: bool = False,
 ) -> Result:
     """Run one mission to its end, score it, and write the result folder.
 
     time_limit [s]: of simulated time. A strategy that is not given is that of the parameters.
     `page` serves the live page, `open_page` shows it in a browser; `record` records the run
-    into the result folder, and leaves its report and video there.
+    into the result folder, and leaves its report and video there. `resume`: the mission that was
+    interrupted there goes on.
     Raises ParametersError, GraphNotReadyError or ProcessDiedError.
     """
     world.save(folder / "world")
     strategy = strategy or Strategy.of_parameters(parameters or default_parameters())
-    overrides = OVERRIDES | strategy.parameters(folder.resolve() / "world" / MAP_NAME)
+    setup = MissionSetup.of(seed, time_limit, fps, strategy, parameters)
+    mission_state.prepare(folder, setup, resume)
     start = time.monotonic()
-    with running_graph(folder, overrides, parameters) as run:
+    with running_graph(folder, _overrides(folder, strategy), parameters) as run:
         run.processes.respawn(NODES)
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
             run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
             done = watch_mission(run, time_limit)
-            run.processes.end(SIMULATOR)  # only then has it printed its last position
-            measured = read_run(folder / "log" / f"{SIMULATOR}.log")
-            mission = run.watch.mission
-            stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
-            grid = run.watch.wait_map(stamp, MAP_SECONDS)
-            rocks = run.watch.rocks()
+            measured, grid = _measured(run)
+            mission, rocks = run.watch.mission, run.watch.rocks()
         remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
@@ -81,9 +83,28 @@ def run_mission(
     if remarks:
         result["remarks"] = remarks
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
+    mission_state.end(folder)
     if record:
         _report(folder, world, result)
     return result
+
+
+def _measured(run: Run) -> tuple[MissionRun, GridMap | None]:
+    """What the simulator says at its end, and the map of its last frame."""
+    run.processes.end(SIMULATOR)  # only then has it printed its last position
+    measured = read_run(*mission_state.logs_of(run.folder, SIMULATOR))
+    stamp = 0 if run.watch.mission is None else round((START_TIME + measured.time) * 1e9)
+    return measured, run.watch.wait_map(stamp, MAP_SECONDS)
+
+
+def _overrides(folder: Path, strategy: Strategy) -> dict[str, dict[str, object]]:
+    """Parameters of the nodes, by their names."""
+    parts = (
+        OVERRIDES,
+        strategy.parameters(folder.resolve() / "world" / MAP_NAME),
+        mission_state.state_parameters(folder),
+    )
+    return {node: {k: v for part in parts for k, v in part.get(node, {}).items()} for node in NODES}
 
 
 def _report(folder: Path, world: World, result: Result) -> None:
@@ -103,6 +124,7 @@ def simulator_command(
         sys.executable, "-m", "rover_simulator.main", "--host", run.host, "--port", str(run.port),
         "--world", str(run.folder / "world"), "--seed", str(seed), "--rate", rate,
         "--fps", str(fps), "--time-limit", str(START_TIME + time_limit), "--progress",
+        "--state", str(run.folder / mission_state.STATE / mission_state.SIMULATION),
     ]  # fmt: skip
 
 
@@ -135,9 +157,10 @@ def _line(watch: GraphWatch) -> str:
     )
 
 
-def read_run(log: Path) -> MissionRun:
-    """The progress lines that the simulator printed."""
-    lines = [json.loads(line) for line in log.read_text().splitlines() if line.startswith("{")]
+def read_run(*logs: Path) -> MissionRun:
+    """The progress lines that the simulator printed, in all parts of the mission."""
+    texts = "\n".join(log.read_text() for log in logs)
+    lines = [json.loads(line) for line in texts.splitlines() if line.startswith("{")]
     if not lines:
         first = {"time": START_TIME, "distance": 0, "contacts": 0, "samples_left": 0}
         lines = [first | {"x": 0, "y": 0}]

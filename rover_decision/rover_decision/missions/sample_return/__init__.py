@@ -6,6 +6,8 @@ from functools import partial
 from pathlib import Path
 
 from rover_common.ground_truth import load_truth
+from rover_common.saved_state import Memory
+from rover_common.types import Run
 from rover_decision.core import DecisionCore
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_decision.missions.sample_return.explorers import SELECTIONS
@@ -29,6 +31,23 @@ def make_planner(config: DecisionConfig) -> Planner:
 def configure(core: SampleReturnCore, config: DecisionConfig) -> None:
     """Let a core of this mission go on with other parameters."""
     core.configure(config, partial(SampleReturnMission, config), make_planner(config).plan)
+
+
+def memory_of(core: SampleReturnCore) -> Memory:
+    """What a core has to know that goes on with the mission at hand."""
+    mission = core.mission
+    assert isinstance(mission, SampleReturnMission)
+    return mission.memory()
+
+
+def resume(core: SampleReturnCore, config: DecisionConfig, run: Run, memory: Memory) -> None:
+    """Let a core that has seen no frame go on with a mission of this run.
+
+    Raises ValueError, TypeError or KeyError for a memory that is none, and changes nothing then.
+    """
+    mission = SampleReturnMission(config)
+    mission.restore(memory)
+    core.resume(run, mission)
 
 
 def make_core(config: DecisionConfig, lockstep: bool) -> SampleReturnCore:

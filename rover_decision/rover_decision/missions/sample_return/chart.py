@@ -122,6 +122,23 @@ class Machine(StateMachine[State, Event]):
             return "heading_home" in self.active
         return "heading_home" in self.interrupted("phase")
 
+    @property
+    def phase(self) -> list[Event]:
+        """What leads from the beginning to where the mission is, but for what interrupts it."""
+        over = self.state is State.DONE
+        happened = {
+            Event.start: self.state is not State.IDLE,
+            Event.finished: self.heading_home or over,
+            Event.arrived: over,
+            Event.pause: self.state is State.PAUSED,
+        }
+        return [event for event, has in happened.items() if has]
+
+    def enter(self, phase: list[Event]) -> None:
+        """Go where the mission was when that was its phase; only from the beginning."""
+        for event in phase:
+            self.handle(event)
+
 
 def transitions(chart: type[StateChart] = MissionChart) -> set[Transition[State, Event]]:
     """All arrows, those of the groups and of the history taken apart."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from rover_decision.missions.sample_return.samples import Samples
 from rover_decision.missions.sample_return.tick import TickContext
@@ -50,6 +51,14 @@ class Completion:
         self._search_limit = search_limit
         self._retried = False
         self._searched = 0.0  # [s]
+
+    def memory(self) -> dict[str, Any]:
+        """What was tried, for JSON."""
+        return {"retried": self._retried, "searched": self._searched}
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        self._retried, self._searched = bool(memory["retried"]), float(memory["searched"])
 
     @property
     def searches(self) -> bool:

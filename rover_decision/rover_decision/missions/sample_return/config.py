@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rover_common.config import parameter
+from rover_common.config import STATE_DIR, parameter
 
 
 @dataclass(frozen=True)
@@ -107,3 +107,4 @@ class DecisionConfig:
         minimum=0.5,
         maximum=120.0,
     )
+    state_dir: str = parameter(*STATE_DIR)

@@ -69,11 +69,11 @@ class HomePaths:
 
     @property
     def method(self) -> HomePath:
-        return METHODS[self._turn % len(METHODS)]
+        return METHODS[self.turn % len(METHODS)]
 
     def prefer(self, name: str, time: float) -> None:
         """Begin anew with this method at a time [s]."""
-        self._turn = [method.name for method in METHODS].index(name)
+        self.turn = [method.name for method in METHODS].index(name)
         self._stuck = 0
         self.begin(time)
 
@@ -98,7 +98,7 @@ class HomePaths:
             self.begin(time)
 
     def _next(self) -> None:
-        self._turn += 1
+        self.turn += 1
         self._stuck = 0
 
 

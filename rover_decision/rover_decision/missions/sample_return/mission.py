@@ -5,10 +5,10 @@ monitors -> the state's event -> the chart -> the state's action
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import partial
 
+from rover_common.saved_state import Memory
 from rover_common.types import SAFE_COMMAND
 from rover_decision.missions.sample_return.chart import Event, Machine, State
 from rover_decision.missions.sample_return.config import DecisionConfig
@@ -17,7 +17,7 @@ from rover_decision.missions.sample_return.parts import Parts
 from rover_decision.missions.sample_return.solution import Solution
 from rover_decision.missions.sample_return.solutions import kind_of, make_solution
 from rover_decision.missions.sample_return.tick import StateBehavior, TickContext
-from rover_decision.types import Decision, Frame, Overlay, Progress, Request
+from rover_decision.types import Decision, Frame, Overlay, Request
 from rover_navigation.monitors import CIRCLE_SPEED
 from rover_navigation.plan_scheduler import MakeRequest, PlanStatus
 from rover_navigation.types import NO_POINTS, Plan, PlanRequest
@@ -97,7 +97,7 @@ class SampleReturnMission:
         parts.circle.commanded(tick.time, command.steering_angle, driving)
         parts.motion.commanded(tick.time, tick.pose, command)
         self._tick = tick
-        return Decision(command, self.state, reason, self._progress(tick))
+        return Decision(command, self.state, reason, parts.progress(frame, self._recoveries))
 
     def wait_for_run(self) -> Decision:
         """Ask the bridge for a new run, and brake until it has begun."""
@@ -123,6 +123,31 @@ class SampleReturnMission:
             last_goal=parts.goals.last,
             home_by_breadcrumbs=self._heads_home and by_breadcrumbs,
         )
+
+    def memory(self) -> Memory:
+        """What a mission needs to know that goes on with this one."""
+        values, arrays = self._parts.memory()
+        config_limit = self._config.time_limit
+        values["mission"] = {
+            "phase": [event.name for event in self._machine.phase],
+            "time_limit": None if self._time_limit == config_limit else self._time_limit,
+            "recoveries": self._recoveries,
+            "return_requested": self._return_requested,
+        }
+        return values, arrays
+
+    def restore(self, memory: Memory) -> None:
+        """Go on with the mission whose `memory` it is, in its phase; only before the first frame.
+
+        Raises ValueError, TypeError or KeyError for anything else, and is not to be used then.
+        """
+        mission = memory[0]["mission"]
+        self._parts.restore(memory)
+        self.limit_time(float(mission["time_limit"] or 0.0))
+        self._recoveries_before = int(mission["recoveries"])
+        self._return_requested = bool(mission["return_requested"])
+        self._run_solution(make_solution(self._config, self._parts, self._drivers))
+        self._machine.enter([Event[name] for name in mission["phase"]])
 
     def overlay(self) -> Overlay:
         """What it knows about places."""
@@ -160,16 +185,10 @@ class SampleReturnMission:
 
     def _change_solution(self, config: DecisionConfig) -> None:
         """Go on with another one, in the phase at hand, and paused if that it is."""
-        before, homeward = self.state, self._machine.heading_home
+        before = self._machine.phase
         self._recoveries_before = self._recoveries
         self._run_solution(make_solution(config, self._parts, self._drivers))
-        happened = {
-            Event.start: before is not State.IDLE,
-            Event.finished: homeward,
-            Event.pause: before is State.PAUSED,
-        }
-        for event in (event for event, has in happened.items() if has):
-            self._machine.handle(event)
+        self._machine.enter(before)
 
     @property
     def _recoveries(self) -> int:
@@ -220,17 +239,3 @@ class SampleReturnMission:
         )
         self._behavior.enter(tick, before)
         return tick
-
-    def _progress(self, tick: TickContext) -> Progress:
-        parts, samples = self._parts, self._parts.samples
-        return Progress(
-            elapsed=parts.elapsed,
-            explored=parts.explored,
-            samples_total=samples.total,
-            samples_collected=samples.collected,
-            rocks_known=samples.known(tick.frame.rocks),
-            rocks_given_up=samples.given_up,
-            home_distance=math.dist(parts.home, (tick.pose.x, tick.pose.y)),
-            distance=parts.inputs.distance,
-            recoveries=self._recoveries,
-        )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
+from rover_common.saved_state import Memory
 from rover_common.vehicle import ROVER
 from rover_decision.missions.sample_return.completion import Completion, Trigger
 from rover_decision.missions.sample_return.config import DecisionConfig
@@ -11,7 +13,7 @@ from rover_decision.missions.sample_return.home_paths import HomePaths
 from rover_decision.missions.sample_return.rover_scale import ROVER_SCALE
 from rover_decision.missions.sample_return.samples import Samples
 from rover_decision.trouble import Health
-from rover_decision.types import Frame
+from rover_decision.types import Frame, Progress
 from rover_navigation.actuation import Actuation
 from rover_navigation.blocked_places import BlockedPlaces
 from rover_navigation.breadcrumbs import Breadcrumbs
@@ -46,6 +48,7 @@ class Parts:
     circle: CircleMonitor = field(default_factory=CircleMonitor)
     scale: Scale = ROVER_SCALE
     begun: float | None = None  # [s] of the first frame
+    started: float | None = None  # [s] the same, of this process: it may go on with a mission
     home: tuple[float, float] = (0.0, 0.0)  # [m] where that was
     elapsed: float = 0.0  # [s] since then
     explored: float = 0.0  # 0..1, as the newest plan estimates it
@@ -79,6 +82,8 @@ class Parts:
         time, pose = frame.time, frame.pose
         if self.begun is None:
             self.begun, self.home = time, (pose.x, pose.y)
+        if self.started is None:
+            self.started = time
         self.elapsed = time - self.begun
         self.inputs.update(time, pose)
         self.motion.update(time, pose)
@@ -95,12 +100,57 @@ class Parts:
             self.explored = plan.explored
         return health, plan
 
+    def memory(self) -> Memory:
+        """What is remembered for longer than some seconds; the arrays are copies."""
+        values = {
+            "begun": self.begun,
+            "home": self.home,
+            "explored": self.explored,
+            "distance": self.inputs.distance,
+            "samples": self.samples.memory(),
+            "goals": self.goals.memory(),
+            "blocked": self.blocked.memory(),
+            "completion": self.completion.memory(),
+            "home_path": self.home_paths.turn,
+        }
+        coverage = self.coverage.snapshot().distance
+        return values, {"breadcrumbs": self.breadcrumbs.points, "coverage": coverage}
+
+    def restore(self, memory: Memory) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        values, arrays = memory
+        x, y = values["home"]
+        self.begun, self.home = float(values["begun"]), (float(x), float(y))
+        self.explored, self.inputs.distance = float(values["explored"]), float(values["distance"])
+        self.samples.restore(values["samples"])
+        self.goals.restore(values["goals"])
+        self.blocked.restore(values["blocked"])
+        self.completion.restore(values["completion"])
+        self.home_paths.turn = int(values["home_path"])
+        self.breadcrumbs.restore(arrays["breadcrumbs"])
+        self.coverage.restore(arrays["coverage"])
+
+    def progress(self, frame: Frame, recoveries: int) -> Progress:
+        """How far the mission has come."""
+        return Progress(
+            elapsed=self.elapsed,
+            explored=self.explored,
+            samples_total=self.samples.total,
+            samples_collected=self.samples.collected,
+            rocks_known=self.samples.known(frame.rocks),
+            rocks_given_up=self.samples.given_up,
+            home_distance=math.dist(self.home, (frame.pose.x, frame.pose.y)),
+            distance=self.inputs.distance,
+            recoveries=recoveries,
+        )
+
     def local_clearance(self, frame: Frame) -> LocalClearance:
         """Of the frame's scan."""
         return LocalClearance.of(frame.scan, self.config.corridor)
 
     def _health(self, frame: Frame, plans: PlanStatus[Plan]) -> Health:
-        begun = frame.stamp - round(self.elapsed * 1e9)
+        started = frame.time if self.started is None else self.started
+        begun = frame.stamp - round((frame.time - started) * 1e9)
         planned = begun if plans.plan is None else plans.plan.stamp
         return Health(
             tilt=max(abs(frame.pose.pitch), abs(frame.pose.roll)),

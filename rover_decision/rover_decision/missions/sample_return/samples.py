@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from rover_common.geometry import Pose, bearing_to
 from rover_common.types import RockTrack
@@ -55,6 +56,23 @@ class Samples:
             y = pose.y + self._arm_forward * math.sin(pose.yaw)
             self._collected.append((x, y))
         self._count = count
+
+    def memory(self) -> dict[str, Any]:
+        """All of it, for JSON."""
+        return {
+            "total": self.total,
+            "count": self._count,
+            "collected": list(self._collected),
+            "tries": [[id, tries.count, tries.last] for id, tries in self._tries.items()],
+            "spent": list(self._spent.items()),
+        }
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        self.total, self._count = int(memory["total"]), memory["count"]
+        self._collected = [(float(x), float(y)) for x, y in memory["collected"]]
+        self._tries = {int(id): _Tries(int(n), float(last)) for id, n, last in memory["tries"]}
+        self._spent = {int(id): float(seconds) for id, seconds in memory["spent"]}
 
     @property
     def all_collected(self) -> bool:

@@ -28,10 +28,11 @@ class BreadcrumbTrail:
     def add(self, pose: Pose) -> None:
         """Once per frame on the way out."""
         if self._count % FRAMES == 0:
-            self._drop((pose.x, pose.y))
+            self.drop((pose.x, pose.y))
         self._count += 1
 
-    def _drop(self, place: Place) -> None:
+    def drop(self, place: Place) -> None:
+        """Keep a place, unless the last one is near, and cut out the loop that it closes."""
         kept = self._breadcrumbs
         if kept and math.dist(kept[-1], place) < SPACING:
             return

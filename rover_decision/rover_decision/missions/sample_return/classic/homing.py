@@ -18,6 +18,8 @@ class Homing:
         self._parts = parts
         self._drivers = drivers
         self._trail = BreadcrumbTrail()
+        for x, y in parts.breadcrumbs.points:  # of a mission that goes on
+            self._trail.drop((float(x), float(y)))
 
     def update(self, tick: TickContext) -> None:
         """Once per frame."""
