@@ -8,14 +8,13 @@ import pytest
 
 from rover_tools.chaos.losses import Knowledge, Ledger, Rock, losses_between
 
-ROCKS = (Rock(1, 10.0, 20.0), Rock(4, 30.0, 40.0))
+ROCKS = (Rock(1, 10.0, 20.0), Rock(4, 30.0, 40.0), Rock(6, 70.0, 40.0))
+SEEN = Rock(7, 50.0, 60.0)
 BEFORE = Knowledge(
     run=1, elapsed=50.0, samples_total=6, samples_collected=2, home_error=0.1, cells=1000,
     rocks=ROCKS,
 )  # fmt: skip
-LATER = replace(
-    BEFORE, elapsed=60.0, samples_collected=3, cells=1100, rocks=(*ROCKS, Rock(5, 50.0, 60.0))
-)
+LATER = replace(BEFORE, elapsed=60.0, samples_collected=3, cells=1100, rocks=(*ROCKS, SEEN))
 
 
 def names(before: Knowledge, after: Knowledge) -> list[str]:
@@ -38,8 +37,8 @@ def test_a_mission_that_goes_on_loses_nothing():
         ("map", {"cells": 900}),
         ("map", {"cells": 0}),
         ("rocks", {"rocks": ROCKS[:1]}),
-        ("rocks", {"rocks": (ROCKS[0], Rock(5, 30.0, 44.0))}),
-        ("rocks", {"rocks": (ROCKS[0], Rock(4, 30.0, 50.0))}),  # another one that is number 4
+        ("rocks", {"rocks": (ROCKS[0], Rock(8, 30.0, 44.0), Rock(9, 74.0, 40.0))}),
+        ("rocks", {"rocks": (SEEN, Rock(4, 90.0, 50.0))}),  # another one is number 4 now
     ],
 )
 def test_each_loss_has_its_name(name, change):
@@ -52,7 +51,7 @@ def test_a_mission_that_begins_anew_loses_all_it_had():
     assert [loss.name for loss in found] == ["run", "mission", "samples", "home", "map", "rocks"]
     assert found[0].text == "run 1 became run 2"
     assert found[2].text == "2 of 6 samples became 0 of 4"
-    assert "(10.0, 20.0), (30.0, 40.0)" in found[-1].text
+    assert "(10.0, 20.0), (30.0, 40.0), (70.0, 40.0)" in found[-1].text
 
 
 @pytest.mark.parametrize(
@@ -60,8 +59,9 @@ def test_a_mission_that_begins_anew_loses_all_it_had():
     [
         {"cells": 990},  # taken back by evidence
         {"home_error": 0.6},
-        {"rocks": (ROCKS[0], Rock(4, 30.0, 45.0))},  # a better estimate
-        {"rocks": (ROCKS[0], Rock(2, 31.0, 41.0))},  # two tracks that became one
+        {"rocks": ROCKS[1:]},  # unconfirmed by what was seen
+        {"rocks": tuple(Rock(rock.id, rock.x, rock.y + 5.0) for rock in ROCKS)},  # corrected
+        {"rocks": tuple(Rock(rock.id + 9, rock.x, rock.y + 2.0) for rock in ROCKS)},  # joined
     ],
 )
 def test_what_a_mission_corrects_is_no_loss(change):

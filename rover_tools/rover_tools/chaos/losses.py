@@ -11,6 +11,9 @@ MAP_SHARE = 0.97  # of the known cells that have to stay
 # [m] between two estimates of a rock: the first are from afar, and two tracks may become one.
 ROCK_MOVES = 3.0
 TRACK_MOVES = 6.0  # [m] the same, where the track has the same number
+# Perception itself unconfirms a rock whose new lines of sight contradict the old ones, and confirms
+# it again with more; who forgets rocks forgets all.
+UNCONFIRMED = 1  # rocks at a time
 HOME_MOVES = 1.0  # [m] of the distance to home beside the true one
 
 
@@ -106,8 +109,10 @@ def _map(before: Knowledge, after: Knowledge) -> str:
 
 def _rocks(before: Knowledge, after: Knowledge) -> str:
     gone = [rock for rock in before.rocks if not any(_same(rock, now) for now in after.rocks)]
+    if len(gone) <= UNCONFIRMED:
+        return ""
     where = ", ".join(f"({rock.x:.1f}, {rock.y:.1f})" for rock in gone)
-    return f"no rock is known any more at {where}" if gone else ""
+    return f"no rock is known any more at {where}"
 
 
 def _same(rock: Rock, now: Rock) -> bool:

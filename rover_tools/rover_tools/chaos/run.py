@@ -70,7 +70,6 @@ def run_chaos(world: World, chaos: Chaos, folder: Path) -> Result:
         run.processes.start(SIMULATOR, _simulator_command(run, chaos))
         with _faults(run, run.watch, chaos) as executor:
             done = watch_mission(run, chaos.time_limit, partial(_tick, executor, run))
-            executor.close(time.monotonic())
         at_end = run.watch.losses()
         run.processes.end(SIMULATOR)  # only then has it printed its last position
         log = folder / "log" / f"{SIMULATOR}.log"
@@ -98,12 +97,16 @@ def _simulator_command(run: Run, chaos: Chaos) -> list[str]:
 
 @contextmanager
 def _faults(run: Run, watch: MissionWatch, chaos: Chaos) -> Iterator[Executor]:
-    """Of the plan, which the executor lets come."""
+    """Lets the faults of the plan come; none is in force after the block."""
     with GraphFaults(run.domain_id) as graph:
         publish = partial(graph.publish, watch.newest)
         faults = Faults(run.processes, run.port, publish, chaos.seed)
         plan = plan_faults(chaos.seed, 60.0 * chaos.minutes)
-        yield Executor(plan, faults.begin, watch, lambda outcome: note(fault_line(outcome)))
+        executor = Executor(plan, faults.begin, watch, lambda outcome: note(fault_line(outcome)))
+        try:
+            yield executor
+        finally:  # a node that is stopped does not hear that it is to end
+            executor.close(time.monotonic())
 
 
 def _tick(executor: Executor, run: Run) -> None:
