@@ -125,16 +125,12 @@ class DecisionNode(Node):
         return response
 
     def _on_map(self, message: OccupancyGrid) -> None:
-        if not self._usable(topics.NAVIGATION_MAP, message):
-            return
         self._inputs.note(topics.NAVIGATION_MAP)
         stamp = conversions.stamp_of(message.header.stamp)
         self._core.give_map(stamp, conversions.grid_of(message))
         self._work()
 
     def _on_part(self, topic: str, message: Any) -> None:
-        if not self._usable(topic, message):
-            return
         self._inputs.note(topic)
         parts = self._sync.add(topic, conversions.stamp_of(message.header.stamp), message)
         self._diagnostics.counts["frames_incomplete"] = self._sync.dropped
@@ -142,14 +138,6 @@ class DecisionNode(Node):
         if parts is not None:
             self._waiting.append((time.monotonic(), _frame_of(parts)))
             self._work()
-
-    def _usable(self, topic: str, message: Any) -> bool:
-        """One that is not is left out and told; the good one of its frame may still come."""
-        why = self._inputs.refusal(topic, message)
-        if why:
-            self._diagnostics.counts["messages_refused"] += 1
-            self.get_logger().warning(f"{topic}: {why}", throttle_duration_sec=PATIENCE)
-        return not why
 
     def _work(self) -> None:
         """Decide on the frames that have all they need, in their order."""

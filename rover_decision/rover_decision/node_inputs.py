@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from typing import Any
 
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from rover_common import nodes, topics
 from rover_common.input_monitor import Input, InputLimits, InputMonitor
-from rover_common.ros.conversions import MessageError
 from rover_common.ros.diagnostics import input_of
-from rover_common.ros.message_checks import check_message
 from rover_common.ros.parameters import declare_parameters
 
 FRAMES = "frames"  # joined of the other inputs, and decided on
@@ -42,15 +39,6 @@ class DecisionInputs:
     def note(self, name: str) -> None:
         """A message of this topic came, or a frame was decided on."""
         self.monitor.note(name, time.monotonic())
-
-    def refusal(self, name: str, message: Any) -> str:
-        """Why a message of this topic cannot be used; empty when it can."""
-        try:
-            check_message(message)
-        except MessageError as error:
-            self.monitor.drop(name, time.monotonic(), str(error))
-            return str(error)
-        return ""
 
     def note_incomplete(self, count: int) -> None:
         """So many frames were incomplete since the start."""

@@ -27,7 +27,6 @@ from rover_common.input_monitor import Input, InputLimits, InputMonitor
 from rover_common.ros import conversions, qos
 from rover_common.ros.conversions import MessageError
 from rover_common.ros.diagnostics import NodeDiagnostics, input_of
-from rover_common.ros.message_checks import check_message
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.state import NodeState
@@ -42,8 +41,7 @@ from rover_perception.frame_validation import FrameError
 # Counters in /diagnostics, beside those of FrameError's subclasses.
 FRAMES = "frames"
 FRAMES_INCOMPLETE = "frames_incomplete"
-# Of messages that are left out, by topic.
-REFUSED = {topics.IMAGE: "frame_image_encoding", topics.ODOMETRY: "frame_pose_orientation"}
+IMAGE_ENCODING = "frame_image_encoding"
 
 VERSION = 1  # of what is saved
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
@@ -113,11 +111,6 @@ class PerceptionNode(Node):
         self._on_part(topics.STATUS, message)
 
     def _on_part(self, topic: str, message: Any) -> None:
-        try:
-            check_message(message)
-        except MessageError as error:  # the good one of its frame may still come
-            self._drop(REFUSED[topic], error)
-            return
         now, before = time.monotonic(), self._join.dropped
         self._inputs.note(topic, now)
         parts = self._join.add(topic, conversions.stamp_of(message.header.stamp), message)
@@ -135,6 +128,8 @@ class PerceptionNode(Node):
             result = self._core.process(frame)
         except FrameError as error:
             self._drop(error.counter, error)
+        except MessageError as error:
+            self._drop(IMAGE_ENCODING, error)
         else:
             self._diagnostics.counts[FRAMES] += 1
             self._inputs.note(FRAMES, now)

@@ -45,7 +45,7 @@ def test_the_parameters_are_those_of_the_configuration():
 
 def test_the_counters_are_those_counted():
     of_errors = {error.counter for error in FrameError.__subclasses__()}
-    of_node = {node.FRAMES, node.FRAMES_INCOMPLETE, *node.REFUSED.values()}
+    of_node = {node.FRAMES, node.FRAMES_INCOMPLETE, node.IMAGE_ENCODING}
     listed = column(README, "Counters", "counter")
     assert len(listed) == len(set(listed))
     assert set(listed) == of_errors | of_node
