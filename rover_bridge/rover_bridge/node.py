@@ -2,9 +2,8 @@
 
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
-carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the health of the
-rover. Parameters: BridgeConfig and InputLimits. Counters: counters.Counter and errors. Answers may
-carry pictures, which node_insets draws.
+carries sim_time) and /diagnostics. Subscribes cmd_drive and /diagnostics. Parameters: BridgeConfig
+and InputLimits. Counters: counters.Counter and errors. Answers may carry pictures of node_insets.
 """
 
 from __future__ import annotations
@@ -96,12 +95,9 @@ class BridgeNode(Node):
 
     def destroy_node(self) -> None:
         """Close the connections, end the server's and the insets' threads, then the node."""
-        if hasattr(self, "_server"):
-            self._server.close()
-        if hasattr(self, "_insets"):
-            self._insets.close()
-        if hasattr(self, "_runs"):
-            self._runs.close()
+        for part in ("_server", "_insets", "_runs"):
+            if hasattr(self, part):
+                getattr(self, part).close()
         super().destroy_node()
 
     def _make_endpoints(self) -> None:
@@ -114,8 +110,7 @@ class BridgeNode(Node):
         self._diagnostics = NodeDiagnostics(
             self, self._topics.peers(command), self._inputs.monitor, self._judge
         )
-        counts = self._diagnostics.counts
-        self._answers = AnswerSender(self._server, self._insets.take, counts)
+        self._answers = AnswerSender(self._server, self._insets.take, self._diagnostics.counts)
         self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
 
     def _on_server_event(self, event: ServerEvent) -> None:
@@ -140,7 +135,6 @@ class BridgeNode(Node):
         elif isinstance(event, Connected):
             self._active.connect(event.client, event.address, time.monotonic())
             self._diagnostics.counts[Counter.CONNECTIONS] += 1
-            self.get_logger().debug(f"client {event.client} of {event.address} connected")
         elif isinstance(event, ProtocolErrorReported):
             self._count(Counter.PROTOCOL_ERRORS, f"protocol error: {event.text}")
         elif isinstance(event, ConnectionRefused):
@@ -178,9 +172,8 @@ class BridgeNode(Node):
             self._activate(client, now)
         tracked = self._runs.track(telemetry, clock_time)
         if tracked is None:
-            text = f"telemetry left out: {self._runs.contradiction}"
-            self._inputs.drop_telemetry(now, text)
-            self._refuse(client, Counter.UNCONFIRMED, text)
+            self._inputs.drop_telemetry(now, self._runs.contradiction)
+            self._refuse(client, Counter.UNCONFIRMED, f"left out: {self._runs.contradiction}")
             return
         self._inputs.note_telemetry(now)
         self._diagnostics.counts[Counter.TELEMETRIES] += 1
@@ -240,8 +233,7 @@ class BridgeNode(Node):
         self._answers.send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
     def _publish_state(self) -> None:
-        connected = self._active.name is not None
-        self._state.publish(String(data="connected" if connected else "disconnected"))
+        self._state.publish(String(data="connected" if self._active.name else "disconnected"))
 
     def _count(self, counter: str, text: str) -> None:
         self._diagnostics.counts[counter] += 1

@@ -11,7 +11,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rover_simulator.simulation import START_TIME
 from rover_simulator.world.world import World
 from rover_tools.chaos.executor import Executor
 from rover_tools.chaos.faults import Faults
@@ -26,9 +25,8 @@ from rover_tools.output import note
 from rover_tools.runner import mission_state
 from rover_tools.runner.graph import NODES, default_parameters
 from rover_tools.runner.mission import (
-    MAP_SECONDS,
     SIMULATOR,
-    read_run,
+    end_and_measure,
     simulator_command,
     watch_mission,
 )
@@ -71,11 +69,8 @@ def run_chaos(world: World, chaos: Chaos, folder: Path) -> Result:
         with _faults(run, run.watch, chaos) as executor:
             done = watch_mission(run, chaos.time_limit, partial(_tick, executor, run))
         at_end = run.watch.losses()
-        run.processes.end(SIMULATOR)  # only then has it printed its last position
-        log = folder / "log" / f"{SIMULATOR}.log"
-        measured, mission = read_run(log), run.watch.mission
-        stamp = 0 if mission is None else round((START_TIME + measured.time) * 1e9)
-        grid, rocks = run.watch.wait_map(stamp, MAP_SECONDS), run.watch.rocks()
+        measured, grid = end_and_measure(run)
+        mission, rocks = run.watch.mission, run.watch.rocks()
         respawns = run.processes.respawns()
     mission_state.end(folder)
     scored = mission_result(
@@ -84,7 +79,7 @@ def run_chaos(world: World, chaos: Chaos, folder: Path) -> Result:
         wall_seconds=time.monotonic() - start,
     )  # fmt: skip
     scored |= {"minutes": chaos.minutes, "rate": chaos.rate}
-    result = chaos_result(scored, executor.outcomes, at_end, respawns, _last_line(log))
+    result = chaos_result(scored, executor.outcomes, at_end, respawns, _last_line(folder))
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     write_faults(folder, executor.outcomes)
     return result
@@ -115,7 +110,8 @@ def _tick(executor: Executor, run: Run) -> None:
         executor.tick(time.monotonic())
 
 
-def _last_line(log: Path) -> dict[str, Any]:
+def _last_line(folder: Path) -> dict[str, Any]:
     """Of the progress that the simulator printed."""
-    lines = [line for line in log.read_text().splitlines() if line.startswith("{")]
+    log = (folder / "log" / f"{SIMULATOR}.log").read_text()
+    lines = [line for line in log.splitlines() if line.startswith("{")]
     return dict(json.loads(lines[-1])) if lines else {}

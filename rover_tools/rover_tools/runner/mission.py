@@ -57,8 +57,7 @@ def run_mission(
     time_limit [s]: of simulated time. A strategy that is not given is that of the parameters.
     `page` serves the live page, `open_page` shows it in a browser; `record` records the run
     into the result folder, and leaves its report and video there. `resume`: the mission that was
-    interrupted there goes on.
-    Raises ParametersError, GraphNotReadyError or ProcessDiedError.
+    interrupted there goes on. Raises ParametersError, GraphNotReadyError or ProcessDiedError.
     """
     world.save(folder / "world")
     strategy = strategy or Strategy.of_parameters(parameters or default_parameters())
@@ -70,18 +69,14 @@ def run_mission(
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
-            run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
-            done = watch_mission(run, time_limit)
-            measured, grid = _measured(run)
+            done, measured, grid = _drive(run, seed, fps, time_limit)
             mission, rocks = run.watch.mission, run.watch.rocks()
         remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
-    )  # fmt: skip
-    if remarks:
-        result["remarks"] = remarks
+    ) | ({"remarks": remarks} if remarks else {})  # fmt: skip
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     mission_state.end(folder)
     if record:
@@ -89,7 +84,16 @@ def run_mission(
     return result
 
 
-def _measured(run: Run) -> tuple[MissionRun, GridMap | None]:
+def _drive(
+    run: Run, seed: int, fps: float, time_limit: float
+) -> tuple[bool, MissionRun, GridMap | None]:
+    """Whether the mission came to its end, and what it came to."""
+    run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
+    done = watch_mission(run, time_limit)
+    return done, *end_and_measure(run)
+
+
+def end_and_measure(run: Run) -> tuple[MissionRun, GridMap | None]:
     """What the simulator says at its end, and the map of its last frame."""
     run.processes.end(SIMULATOR)  # only then has it printed its last position
     measured = read_run(*mission_state.logs_of(run.folder, SIMULATOR))
