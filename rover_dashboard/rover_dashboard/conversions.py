@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.serialization import deserialize_message
 from rover_interfaces.msg import (
@@ -24,13 +25,14 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from rover_common import topics
 from rover_common.ros.conversions import grid_of, image_of, stamp_of
+from rover_common.ros.diagnostics import TEAM_STATUS
 from rover_common.types import VehicleState
 from rover_dashboard.encoders import Jpeg, Picture, StampedMap
 from rover_dashboard.history import StateReport
 
 Point = tuple[float, float]
 COMPRESSED_VISION = f"{topics.VISION_IMAGE}/compressed"  # in recordings
-TF = "/tf"  # the one topic that is in no namespace
+TF, DIAGNOSTICS = "/tf", "/diagnostics"  # in no namespace
 
 
 TYPES: dict[str, type] = {
@@ -71,6 +73,14 @@ def jpeg_of(message: CompressedImage) -> Jpeg:
 
 def map_of(message: OccupancyGrid) -> StampedMap:
     return StampedMap(stamp_of(message.header.stamp), grid_of(message))
+
+
+def health_of(message: DiagnosticArray) -> dict[str, Any] | None:
+    """Level and cause of the whole graph, if this message tells them."""
+    for status in message.status:
+        if status.name.rsplit("/", 1)[-1] == TEAM_STATUS:
+            return {"level": status.level[0], "text": status.message}
+    return None
 
 
 def vehicle_of(vehicle: VehicleState, status: RoverStatus) -> dict[str, Any]:

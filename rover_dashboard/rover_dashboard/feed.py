@@ -14,7 +14,7 @@ from rover_dashboard.slots import Slot, Slots
 
 # In the order in which they are sent. The first ones are heard of while somebody looks only.
 VIEWS = ("camera", "vision", "map", "plan", "markers", "sources", "thermal_1", "thermal_2")
-SLOTS = ("playback", "robot", "simulator", "mission", "vehicle", "parameters", *VIEWS)
+SLOTS = ("playback", "robot", "simulator", "health", "mission", "vehicle", "parameters", *VIEWS)
 OF_RUN = ("map", "plan", "markers", "sources", "vision")  # nothing of another run may stay
 
 ENCODERS: Mapping[str, Callable[[Any], Encoded | None]] = {

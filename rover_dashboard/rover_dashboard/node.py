@@ -1,10 +1,10 @@
 """The dashboard node: serves a live page of the mission of either robot.
 
-Subscribes odom and rover_status (joined by stamp), mission_state, bridge_state, heat_state and /tf
-all the time; camera/image_raw/compressed, vision_image, worldmap, plan, mission_markers and
-cmd_drive, map, heat_markers, heat_sources and temperature_sensor_1 and _2 while somebody looks.
-Calls the services of decision_node and of heat_node, and sets the parameters of decision_node.
-Parameters: see DashboardConfig.
+Subscribes odom and rover_status (joined by stamp), mission_state, bridge_state, heat_state, /tf and
+/diagnostics all the time; camera/image_raw/compressed, vision_image, worldmap, plan,
+mission_markers and cmd_drive, map, heat_markers, heat_sources and temperature_sensor_1 and _2 while
+somebody looks. Calls the services of decision_node and of heat_node, and sets the parameters of
+decision_node. Parameters: see DashboardConfig.
 asyncio runs in the main thread, rclpy in one other; they share slots and the history.
 """
 
@@ -20,6 +20,7 @@ from functools import partial
 from typing import Any
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.executors import Executor
 from rclpy.node import Node
@@ -51,7 +52,7 @@ from rover_common.ros.runner import (
     start_ros,
 )
 from rover_dashboard.config import DashboardConfig
-from rover_dashboard.conversions import TF
+from rover_dashboard.conversions import DIAGNOSTICS, TF
 from rover_dashboard.feed import Feed
 from rover_dashboard.history import History
 from rover_dashboard.node_intake import HEAT, Intake
@@ -78,6 +79,7 @@ ALWAYS: Endpoints = (
     (topics.BRIDGE_STATE, String, qos.LATCHED),
     (topics.HEAT_STATE, HeatState, qos.LATCHED),
     (TF, TFMessage, qos.TF),
+    (DIAGNOSTICS, DiagnosticArray, qos.DIAGNOSTICS),
 )
 WATCHED: Endpoints = (  # while somebody looks
     (topics.COMPRESSED_IMAGE, CompressedImage, qos.VIEW),

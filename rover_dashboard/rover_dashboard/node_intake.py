@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import OccupancyGrid, Path
 from rover_interfaces.msg import DriveCommand, MissionState
 from sensor_msgs.msg import CompressedImage, Image
@@ -20,6 +21,8 @@ from rover_common.ros.conversions import command_of, stamp_of, vehicle_state_of
 from rover_common.ros.sync import ExactTimeSynchronizer
 from rover_dashboard.conversions import (
     COMPRESSED_VISION,
+    DIAGNOSTICS,
+    health_of,
     jpeg_of,
     map_of,
     markers_of,
@@ -36,7 +39,7 @@ from rover_dashboard.slots import Slots
 
 ROVER, HEAT = "rover", "heat"
 SPACING = 0.25  # [m] between two points of the rover's track
-STAYS = ("playback", "robot", "simulator")  # when another robot is shown
+STAYS = ("playback", "robot", "simulator", "health")  # when another robot is shown
 
 
 class Intake:
@@ -53,6 +56,7 @@ class Intake:
             topics.STATUS: lambda message: self._take_part(topics.STATUS, message),
             topics.MISSION_STATE: self._take_mission,
             topics.BRIDGE_STATE: self._take_bridge,
+            DIAGNOSTICS: self._take_diagnostics,
             topics.COMPRESSED_IMAGE: lambda message: self._take_jpeg("camera", message),
             topics.VISION_IMAGE: self._take_vision,
             COMPRESSED_VISION: lambda message: self._take_jpeg("vision", message),
@@ -104,6 +108,11 @@ class Intake:
 
     def _take_bridge(self, message: String) -> None:
         self._slots.put("simulator", message.data)
+
+    def _take_diagnostics(self, message: DiagnosticArray) -> None:
+        health, before = health_of(message), self._slots.get("health")
+        if health is not None and (before is None or before.value != health):
+            self._slots.put("health", health)
 
     def _take_jpeg(self, name: str, message: CompressedImage) -> None:
         self._slots.put(name, jpeg_of(message))

@@ -8,7 +8,6 @@ are on the wire, other images as JPEG. Publishes /diagnostics. Parameters: Recor
 from __future__ import annotations
 
 import os
-import signal
 import sys
 import time
 from collections.abc import Callable
@@ -32,8 +31,8 @@ from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
 from rover_common.ros.runner import (
-    WAIT_SECONDS,
     EventsExecutor,
+    StopSignals,
     spin_for,
     start_errors,
     start_ros,
@@ -191,9 +190,7 @@ def _new_folder() -> Path:
 
 def record(args: list[str] | None = None) -> None:
     """Record until SIGINT or SIGTERM. Raises RecordingError, or OSError when the disk is full."""
-    stop: list[int] = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda number, _: stop.append(number))
+    stop = StopSignals()
     give_way()
     # rclpy's own handlers would end the subscriptions before what was published has arrived.
     with start_errors():
@@ -203,8 +200,9 @@ def record(args: list[str] | None = None) -> None:
         node = RecorderNode()
         executor = EventsExecutor()
         executor.add_node(node)
-        while not stop and node.failure is None:
-            spin_for(executor, WAIT_SECONDS)
+        while not stop.asked and node.failure is None:
+            stop.spin(executor)
+        spin_for(executor, 0.0)  # takes a signal that came between two waits
         spin_for(executor, LAST_SECONDS)
     finally:
         if node is not None:

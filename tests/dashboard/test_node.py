@@ -7,6 +7,7 @@ from array import array
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.node import Node
 from rover_interfaces.msg import DriveCommand, MissionState, RoverStatus
@@ -30,7 +31,7 @@ WATCHED = {
 }  # fmt: skip
 ALWAYS = {
     topics.ODOMETRY, topics.STATUS, topics.MISSION_STATE, topics.BRIDGE_STATE, topics.HEAT_STATE,
-    "tf",
+    "tf", "diagnostics",
 }  # fmt: skip
 OF_ROVER = {"camera", "vision", "map", "plan", "markers"}
 
@@ -113,6 +114,10 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
     grid.info.width = grid.info.height = 2
     grid.info.resolution = 1.0
     markers = MarkerArray(markers=[Marker(ns="goal", action=Marker.DELETE)])
+    statuses = [
+        DiagnosticStatus(level=DiagnosticStatus.WARN, name="/bridge_node", message="one of many"),
+        DiagnosticStatus(level=DiagnosticStatus.ERROR, name="/rover", message="the cause"),
+    ]
     sent = {
         topics.COMPRESSED_IMAGE: (CompressedImage(), qos.FRAME),
         topics.VISION_IMAGE: (image, qos.VIEW),
@@ -122,16 +127,18 @@ def test_every_topic_fills_its_slot(ros, dashboard, graph):
         topics.COMMAND: (DriveCommand(), qos.FRAME),
         topics.MISSION_STATE: (MissionState(state_name="STOP"), qos.LATCHED),
         topics.BRIDGE_STATE: (String(data="connected"), qos.LATCHED),
+        "/diagnostics": (DiagnosticArray(status=statuses), qos.DIAGNOSTICS),
     }
     for topic, (message, profile) in sent.items():
         publisher = graph.create_publisher(type(message), topic, profile)
         assert ros.spin_until(lambda p=publisher: p.get_subscription_count() == 1)
         publisher.publish(message)
     slots = dashboard.slots
-    names = {*OF_ROVER, "mission", "simulator"}
+    names = {*OF_ROVER, "mission", "simulator", "health"}
     assert ros.spin_until(lambda: all(slots.get(name) for name in names))
     assert slots.get("mission").value["state"] == "STOP"
     assert slots.get("simulator").value == "connected"
+    assert slots.get("health").value == {"level": 2, "text": "the cause"}
     assert slots.get("markers").value == {"goal": []}
 
 

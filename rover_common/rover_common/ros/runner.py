@@ -6,6 +6,7 @@ import os
 import re
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -57,6 +58,32 @@ def spin_for(executor: Executor, seconds: float) -> None:
     executor.spin_until_future_complete(Future(), timeout_sec=seconds)
 
 
+class StopSignals:
+    """SIGINT and SIGTERM, which end the wait at hand; those after the first change nothing.
+
+    An executor whose callbacks never pause does not end for a timeout, but for its future.
+    """
+
+    def __init__(self) -> None:
+        self.asked = False
+        self._wait: Future | None = None  # the one at hand
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._ask)
+
+    def spin(self, executor: Executor) -> None:
+        """Handle whatever comes for a while, or until a signal."""
+        self._wait = Future()
+        self._wait._lock = threading.RLock()  # a signal may come while it is held
+        if not self.asked:
+            executor.spin_until_future_complete(self._wait, timeout_sec=WAIT_SECONDS)
+        self._wait = None
+
+    def _ask(self, *_: object) -> None:
+        self.asked = True
+        if self._wait is not None:
+            self._wait.set_result(None)
+
+
 @contextmanager
 def start_errors() -> Iterator[None]:
     """Parameters, files and arguments that cannot be used end the process with one line."""
@@ -74,11 +101,9 @@ def run_node(
     """Make the node and spin it in this thread.
 
     A signal ends the loop alone, not the context: a callback that runs may still publish, and the
-    node closes while ROS is there. Signals after the first change nothing.
+    node closes while ROS is there.
     """
-    stop: list[int] = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda number, _: stop.append(number))
+    stop = StopSignals()
     with start_errors():
         start_ros(args, signal_handler_options=SignalHandlerOptions.NO)
     node = None
@@ -89,8 +114,8 @@ def run_node(
             node.get_logger().warning(f"ignored: there is no parameter {name}")
         executor = executor_class()
         executor.add_node(node)
-        while not stop and rclpy.ok():
-            spin_for(executor, WAIT_SECONDS)
+        while not stop.asked and rclpy.ok():
+            stop.spin(executor)
     finally:
         if node is not None:
             node.destroy_node()

@@ -15,6 +15,7 @@ const plots = new Plots();
 const timeline = new Timeline();
 const link = document.getElementById("link");
 let simulator = null;
+let health = null; // level and text of the whole graph
 let connected = "connecting";
 let recorded = false; // a recording is shown, not the graph
 let robot = "rover"; // whose mission is shown
@@ -64,6 +65,10 @@ const parts = {
     simulator = data;
     showLink();
   },
+  health: ({ data }) => {
+    health = data;
+    showLink();
+  },
 };
 
 const connection = new Connection(
@@ -79,8 +84,11 @@ const playback = new PlaybackBar(connection);
 function showLink() {
   const lacksSimulator = robot === "rover" && simulator !== "connected";
   const waiting = connected === "connected" && !recorded && lacksSimulator;
-  link.dataset.link = waiting ? "waiting" : connected;
+  const troubled = connected === "connected" && !recorded && health?.level > 0;
+  link.dataset.link = waiting || troubled ? "waiting" : connected;
   link.textContent = waiting
     ? "no simulator"
+    : troubled
+    ? health.text
     : { connecting: "connecting", connected: recorded ? "recording" : "live", lost: "connection lost, trying again" }[connected];
 }
