@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from rover_tools.runner.domain import DomainError, reserved_domain
+from rover_tools.runner import domain as domains
+from rover_tools.runner.domain import DomainError, free_domain, reserved_domain
 from rover_tools.runner.processes import (
     RESPAWNS,
     WITH_PARENT,
@@ -133,6 +134,19 @@ def test_a_chosen_domain_is_kept(monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "42")
     with reserved_domain() as domain:
         assert domain == 42
+
+
+def test_a_chosen_domain_is_free_for_nobody_else_but_may_be_shared(monkeypatch):
+    with free_domain() as domain:
+        pass
+    monkeypatch.setattr(domains, "DOMAINS", range(domain, domain + 1))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    with reserved_domain() as first, reserved_domain() as second:
+        assert first == second == domain
+        with pytest.raises(DomainError, match="all DDS domains are in use"), free_domain():
+            pass
+    with free_domain() as free, reserved_domain() as inside:
+        assert free == inside == domain
 
 
 @pytest.mark.parametrize("text", ["east", "-1", "233"])
