@@ -57,7 +57,7 @@ def test_a_mission_that_begins_anew_loses_all_it_had():
 @pytest.mark.parametrize(
     "change",
     [
-        {"cells": 990},  # taken back by evidence
+        {"cells": 960},  # taken back by evidence
         {"home_error": 0.6},
         {"rocks": ROCKS[1:]},  # unconfirmed by what was seen
         {"rocks": tuple(Rock(rock.id, rock.x, rock.y + 5.0) for rock in ROCKS)},  # corrected
@@ -81,3 +81,9 @@ def test_a_map_that_shrinks_slowly_shrinks():
     ledger = Ledger()
     told = [ledger.losses(replace(BEFORE, cells=cells)) for cells in range(1000, 900, -10)]
     assert [loss.name for losses in told for loss in losses][:1] == ["map"]
+
+
+def test_a_map_that_has_just_begun_takes_back_more_but_is_not_forgotten():
+    begun = replace(BEFORE, cells=237)
+    assert names(begun, replace(LATER, cells=222)) == []
+    assert names(begun, replace(LATER, cells=70)) == ["map"]
