@@ -62,15 +62,16 @@ def test_a_process_that_is_to_be_there_is_started_again(tmp_path, capsys):
         wait_for(lambda: len(pids()) == 1)
         processes.respawn(["worker"])
         processes.check()
-        assert processes.remarks() == []
+        assert processes.remarks() == {}
         os.kill(pids()[0], signal.SIGKILL)
         wait_for(lambda: processes.ended("worker") is not None)
         processes.check()
         wait_for(lambda: len(pids()) == 2)
         second = pids()[1]
         assert processes.pid("worker") == second
-        assert processes.remarks() == ["worker ended 1 times and was started again"]
-    assert "worker ended with exit code -9; it is started again" in capsys.readouterr().err
+    remark = "worker ended with exit code -9; it is started again"
+    assert processes.remarks() == {"remarks": [remark]}
+    assert remark in capsys.readouterr().err
     with pytest.raises(ProcessLookupError):
         os.kill(second, 0)
 
@@ -83,6 +84,19 @@ def test_a_process_that_ends_again_and_again_is_told(tmp_path):
             for _ in range(RESPAWNS + 1):
                 wait_for(lambda: processes.ended("worker") is not None)
                 processes.check()
+
+
+def test_a_process_is_started_again_as_often_as_it_is_told(tmp_path):
+    with Processes(tmp_path, {}) as processes:
+        processes.start("worker", [sys.executable, "-c", ""])
+        processes.respawn(["worker"], most=1)
+        assert processes.respawns() == {}
+        wait_for(lambda: processes.ended("worker") is not None)
+        processes.check()
+        assert processes.respawns() == {"worker": 1}
+        wait_for(lambda: processes.ended("worker") is not None)
+        with pytest.raises(ProcessDiedError):
+            processes.check()
 
 
 @pytest.mark.skipif(not shutil.which(WITH_PARENT[0]), reason="needs setpriv")

@@ -65,18 +65,17 @@ def run_mission(
     mission_state.prepare(folder, setup, resume)
     start = time.monotonic()
     with running_graph(folder, _overrides(folder, strategy), parameters) as run:
-        run.processes.respawn(NODES)
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
             done, measured, grid = _drive(run, seed, fps, time_limit)
             mission, rocks = run.watch.mission, run.watch.rocks()
-        remarks = run.processes.remarks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
-    ) | ({"remarks": remarks} if remarks else {})  # fmt: skip
+    )  # fmt: skip
+    result |= run.processes.remarks()
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     mission_state.end(folder)
     if record:
@@ -87,7 +86,8 @@ def run_mission(
 def _drive(
     run: Run, seed: int, fps: float, time_limit: float
 ) -> tuple[bool, MissionRun, GridMap | None]:
-    """Whether the mission came to its end, and what it came to."""
+    """Whether the mission came to its end, and to what; nodes that end are started again."""
+    run.processes.respawn(NODES)
     run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
     done = watch_mission(run, time_limit)
     return done, *end_and_measure(run)
@@ -153,6 +153,8 @@ def watch_mission(run: Run, time_limit: float, tick: Callable[[], None] = lambda
 
 def _line(watch: GraphWatch) -> str:
     mission = watch.mission
+    if watch.failure:
+        return watch.failure
     if mission is None:
         return "starting"
     return (

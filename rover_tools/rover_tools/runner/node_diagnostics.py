@@ -10,6 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from rover_common.errors import RoverError
 from rover_common.ros import qos
+from rover_common.ros.diagnostics import TEAM_STATUS
 from rover_tools.runner.node_in_domain import NodeInDomain
 
 PART = ": "  # between a node's name and that of one of its inputs or troubles
@@ -60,6 +61,12 @@ class DiagnosticsWatch(NodeInDomain):
             for name, status in self.diagnostics.items()
             if PART not in name
         }
+
+    @property
+    def failure(self) -> str:
+        """Why the graph does not work, as its nodes tell it; empty while it does."""
+        team = [s for name, s in self.diagnostics.items() if name.endswith(f"/{TEAM_STATUS}")]
+        return next((s.message for s in team if s.level == DiagnosticStatus.ERROR), "")
 
     def close(self) -> None:
         self._stop = True

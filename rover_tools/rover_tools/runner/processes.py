@@ -44,6 +44,7 @@ class Processes:
         self._children: list[_Child] = []
         self._optional: set[str] = set()
         self._respawned: dict[str, int] = {}  # how often at most
+        self._remarks: list[str] = []
         self._parent = WITH_PARENT if shutil.which(WITH_PARENT[0]) else ()
         self.stop_seconds = STOP_SECONDS
         log_dir.mkdir(parents=True, exist_ok=True)
@@ -87,20 +88,18 @@ class Processes:
                     f"{child.name} ended with exit code {code}; the end of {child.log}:\n"
                     + _tail(child.log)
                 )
-            note(f"{child.name} ended with exit code {code}; it is started again")
+            self._remarks.append(f"{child.name} ended with exit code {code}; it is started again")
+            note(self._remarks[-1])
             child.respawns += 1
             child.process = self._spawn(child.command, child.log)
 
     def respawns(self) -> dict[str, int]:
-        """How often each process that ended was started again."""
+        """How often each process that ended was started again, until all are stopped."""
         return {child.name: child.respawns for child in self._children if child.respawns}
 
-    def remarks(self) -> list[str]:
-        """Which processes were started again, a line each."""
-        return [
-            f"{name} ended {times} times and was started again"
-            for name, times in self.respawns().items()
-        ]
+    def remarks(self) -> dict[str, list[str]]:
+        """For a result: `remarks` on what was started again; nothing where nothing was."""
+        return {"remarks": self._remarks} if self._remarks else {}
 
     def pid(self, name: str) -> int:
         """Of the named process."""
