@@ -18,6 +18,7 @@ from typing import Any
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 from rover_interfaces.msg import (
     DriveCommand,
     MissionState,
@@ -32,6 +33,7 @@ from visualization_msgs.msg import MarkerArray
 from rover_common import topics
 from rover_common.ros import conversions, qos
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.message_checks import guarded
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.state import NodeState
@@ -77,22 +79,24 @@ class DecisionNode(Node):
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
         self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
-        parts = [
-            self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
+        peers = {
+            "bridge": lambda: self._command.get_subscription_count() > 0,
+            "frames": lambda: all(part.get_publisher_count() > 0 for part in self._frame_parts),
+        }
+        self._diagnostics = NodeDiagnostics(self, peers)
+        guard = partial(guarded, self, self._diagnostics.counts)
+        self._frame_parts: list[Subscription] = [
+            self.create_subscription(kind, topic, guard(partial(self._on_part, topic)), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()
         ]
-        self.create_subscription(OccupancyGrid, topics.NAVIGATION_MAP, self._on_map, qos.LATCHED)
+        on_map = guard(self._on_map)
+        self.create_subscription(OccupancyGrid, topics.NAVIGATION_MAP, on_map, qos.LATCHED)
         for request in Request:
             self.create_service(Trigger, f"~/{request.value}", partial(self._on_request, request))
         self._action = RunMissionServer(self, self._core)
         self._wait_timer = self.create_timer(
             PATIENCE / 5, self._on_wait, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
-        peers = {
-            "bridge": lambda: self._command.get_subscription_count() > 0,
-            "frames": lambda: all(part.get_publisher_count() > 0 for part in parts),
-        }
-        self._diagnostics = NodeDiagnostics(self, peers)
 
     def destroy_node(self) -> None:
         """End the action's goal and the planner's thread, then the node."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -16,7 +17,8 @@ from tf2_msgs.msg import TFMessage
 from rover_common import frames, topics
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
-from rover_common.ros.conversions import MessageError, grid_of, stamp_of
+from rover_common.ros.conversions import grid_of, stamp_of
+from rover_common.ros.message_checks import MessageError, guarded
 from rover_common.ros.transforms import pose_of_transform
 from rover_common.sensor_batches import BatchCollector
 from rover_common.types import GridMap
@@ -36,6 +38,7 @@ class HeatSensors:
         self.grid: GridMap | None = None
         self.grid_stamp = 0  # [ns]
         self.dropped = 0  # thermal frames that are none
+        self.counts: Counter[str] = Counter()  # of messages that cannot be used
         thermal = self._on_thermal
         listened: list[tuple[Any, str, Callable[[Any], None], Any]] = [
             (LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
@@ -50,7 +53,9 @@ class HeatSensors:
         if lockstep:
             listened.append((SensorTick, topics.SENSOR_TICK, self._on_tick, qos.SENSOR))
         self.subscriptions = [
-            node.create_subscription(kind, topic, partial(self._store, callback), profile)
+            node.create_subscription(
+                kind, topic, guarded(node, self.counts, partial(self._store, callback)), profile
+            )
             for kind, topic, callback, profile in listened
         ]
 

@@ -74,8 +74,8 @@ def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArr
     for axis, at in ((1, row), (0, col)):
         indices = np.flatnonzero(known.any(axis=axis))
         first, last = (indices[0], indices[-1]) if len(indices) else (at, at)
-        size = grid.cells.shape[1 - axis]
-        low = max(0, min(int(first), at) - MARGIN) // 2 * 2
+        size = grid.cells.shape[1 - axis] // 2 * 2  # the last cell of an odd number is left out
+        low = min(size - 2, max(0, min(int(first), at) - MARGIN) // 2 * 2)
         high = min(size, (max(int(last), at) + MARGIN + 1) // 2 * 2)
         bounds.append((low, high))
     (row0, row1), (col0, col1) = bounds

@@ -14,6 +14,7 @@ from geometry_msgs.msg import Pose as PoseMsg
 
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
 from rover_common.ros.conversions import header_of
+from rover_common.ros.message_checks import check_finite, check_unit
 
 
 def transform_message_of(stamp: int, parent: str, child: str, pose: Pose) -> TransformStamped:
@@ -28,9 +29,9 @@ def transform_message_of(stamp: int, parent: str, child: str, pose: Pose) -> Tra
 
 
 def pose_of_transform(message: TransformStamped) -> Pose:
-    """Of the child frame in its parent."""
+    """Of the child frame in its parent; raises MessageError."""
     at = message.transform.translation
-    return Pose(at.x, at.y, _yaw(message.transform.rotation))
+    return _pose_of(at.x, at.y, message.transform.rotation)
 
 
 def pose_message_of(stamp: int, frame: str, pose: Pose) -> PoseStamped:
@@ -40,9 +41,9 @@ def pose_message_of(stamp: int, frame: str, pose: Pose) -> PoseStamped:
 
 
 def pose_of_message(message: PoseStamped) -> Pose:
-    """In the frame of its header."""
+    """In the frame of its header; raises MessageError."""
     at = message.pose.position
-    return Pose(at.x, at.y, _yaw(message.pose.orientation))
+    return _pose_of(at.x, at.y, message.pose.orientation)
 
 
 def _quaternion(pose: Pose) -> Quaternion:
@@ -50,6 +51,8 @@ def _quaternion(pose: Pose) -> Quaternion:
     return Quaternion(x=x, y=y, z=z, w=w)
 
 
-def _yaw(q: Quaternion) -> float:
+def _pose_of(x: float, y: float, q: Quaternion) -> Pose:
+    check_unit(q)
     _, _, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
-    return yaw
+    check_finite("pose", x, y, yaw)
+    return Pose(x, y, yaw)
