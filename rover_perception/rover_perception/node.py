@@ -22,8 +22,8 @@ from sensor_msgs.msg import Image, LaserScan
 
 from rover_common import frames, topics
 from rover_common.ros import conversions, qos
-from rover_common.ros.conversions import MessageError
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.message_checks import MessageError
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.state import NodeState

@@ -18,7 +18,7 @@ from std_msgs.msg import Header
 
 from rover_common import frames
 from rover_common.ros import conversions, sensor_conversions
-from rover_common.ros.conversions import MessageError
+from rover_common.ros.message_checks import MessageError
 from rover_common.ros.transforms import pose_of_transform
 
 

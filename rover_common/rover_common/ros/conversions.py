@@ -20,15 +20,7 @@ from std_msgs.msg import Header
 from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
-from rover_common.ros.message_checks import (
-    MOST_CELLS,
-    ImageMessageError,
-    MessageError,
-    check_all_finite,
-    check_finite,
-    check_frame,
-    check_unit,
-)
+from rover_common.ros import message_checks as checks
 from rover_common.types import (
     CameraFrame,
     Command,
@@ -62,8 +54,8 @@ def header_of(stamp: int, frame: str) -> Header:
 
 def pose_of(odometry: Odometry) -> Pose:
     """base_link in the odom frame, which is the map frame; raises MessageError."""
-    check_frame(odometry.header, frames.ODOM, frames.MAP)
-    check_unit(odometry.pose.pose.orientation)
+    checks.check_frame(odometry.header, frames.ODOM, frames.MAP)
+    checks.check_unit(odometry.pose.pose.orientation)
     position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     roll, pitch, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
     return Pose(position.x, position.y, yaw, pitch, roll)
@@ -87,7 +79,7 @@ def run_of(status: RoverStatus) -> Run:
 def vehicle_state_of(odometry: Odometry, status: RoverStatus) -> VehicleState:
     """Of the two messages of one telemetry; raises MessageError."""
     pose, speed = pose_of(odometry), odometry.twist.twist.linear.x
-    check_finite("pose or speed", pose.x, pose.y, pose.yaw, pose.pitch, pose.roll, speed)
+    checks.check_finite("pose or speed", pose.x, pose.y, pose.yaw, pose.pitch, pose.roll, speed)
     return VehicleState(
         stamp=stamp_of(odometry.header.stamp),
         pose=pose,
@@ -114,17 +106,11 @@ def image_message_of(stamp: int, frame: str, image: np.ndarray) -> Image:
 
 
 def image_of(message: Image) -> np.ndarray:
-    """A read-only view (height, width, 3) uint8 of an rgb8 Image; raises MessageError.
-
-    Its rows may be longer than their pixels.
-    """
-    height, width, step = message.height, message.width, message.step
-    if message.encoding != "rgb8":
-        raise ImageMessageError(f"image encoding '{message.encoding}', expected rgb8")
-    if step < 3 * width or len(message.data) != height * step or not height * width:
-        raise ImageMessageError("image data does not fit its height, width and step")
-    rows = np.frombuffer(message.data, np.uint8).reshape(height, step)
-    return np.ascontiguousarray(rows[:, : 3 * width]).reshape(height, width, 3)
+    """A read-only view (height, width, 3) uint8 of an rgb8 Image; raises MessageError."""
+    checks.check_image(message)
+    rows = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)
+    pixels = np.ascontiguousarray(rows[:, : 3 * message.width])  # rows may be longer than these
+    return pixels.reshape(message.height, message.width, 3)
 
 
 def jpeg_message_of(header: Header, jpeg: bytes) -> CompressedImage:
@@ -140,23 +126,16 @@ def camera_frame_of(image: Image, odometry: Odometry, status: RoverStatus) -> Ca
 
 def polar_message_of(stamp: int, run: Run, polar: PolarArray) -> PolarArrayMsg:
     """In base_link."""
-    return PolarArrayMsg(
-        header=header_of(stamp, frames.BASE),
-        run=run.number,
-        ranges=_float32(polar.ranges),
-        bearings=_float32(polar.bearings),
-    )
+    arrays = {"ranges": _float32(polar.ranges), "bearings": _float32(polar.bearings)}
+    return PolarArrayMsg(header=header_of(stamp, frames.BASE), run=run.number, **arrays)
 
 
 def polar_of(message: PolarArrayMsg) -> PolarArray:
     """A read-only view of the message's arrays; raises MessageError."""
-    check_frame(message.header, frames.BASE)
+    checks.check_frame(message.header, frames.BASE)
     ranges = np.frombuffer(message.ranges, np.float32)
     bearings = np.frombuffer(message.bearings, np.float32)
-    if len(ranges) != len(bearings):
-        raise MessageError(f"{len(ranges)} ranges and {len(bearings)} bearings")
-    check_all_finite("ranges", ranges)
-    check_all_finite("bearings", bearings)
+    checks.check_points(ranges, bearings)
     return PolarArray(ranges, bearings)
 
 
@@ -174,30 +153,13 @@ def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
 
 
 def scan_of(message: LaserScan) -> FreeScan:
-    """A read-only view of the message's ranges, which are inf where nothing is met.
-
-    Raises MessageError.
-    """
-    check_frame(message.header, frames.BASE)
+    """A read-only view of the message's ranges; raises MessageError."""
+    checks.check_frame(message.header, frames.BASE)
     ranges = np.frombuffer(message.ranges, np.float32)
-    check_fan(message, ranges)
-    if np.isnan(ranges).any() or (ranges < 0.0).any():
-        raise MessageError("ranges that are no distances")
-    return FreeScan(
-        message.angle_min,
-        message.angle_increment,
-        message.range_min,
-        message.range_max,
-        ranges,
-    )
-
-
-def check_fan(message: LaserScan, ranges: np.ndarray) -> None:
-    """Whether a scan's bearings are a fan: some, one after the other. Raises MessageError."""
-    angles = message.angle_min, message.angle_increment
-    check_finite("angles or limits", *angles, message.range_min, message.range_max)
-    if len(ranges) == 0 or message.angle_increment == 0.0:
-        raise MessageError(f"{len(ranges)} ranges, {message.angle_increment:g} rad apart")
+    checks.check_fan(message, ranges)
+    checks.check_distances(ranges)
+    limits = message.range_min, message.range_max
+    return FreeScan(message.angle_min, message.angle_increment, *limits, ranges)
 
 
 def rocks_message_of(
@@ -223,9 +185,10 @@ def rocks_message_of(
 
 def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
     """All confirmed rock tracks, in the map frame; raises MessageError."""
-    check_frame(message.header, frames.MAP)
+    checks.check_frame(message.header, frames.MAP)
     for rock in message.rocks:
-        check_finite("a rock", rock.position.x, rock.position.y, *map(float, rock.covariance))
+        at = rock.position
+        checks.check_finite("a rock", at.x, at.y, *map(float, rock.covariance))
     return tuple(
         RockTrack(
             id=rock.id,
@@ -251,21 +214,13 @@ def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
 
 
 def grid_of(message: OccupancyGrid) -> GridMap:
-    """A read-only view of the message's cells; their size to the micrometre, of its 32 bits.
-
-    Raises MessageError.
-    """
+    """A read-only view of the message's cells; raises MessageError."""
     info = message.info
-    check_frame(message.header, frames.MAP)
-    count = info.height * info.width
-    if len(message.data) != count or not 0 < count <= MOST_CELLS:
-        raise MessageError(f"{len(message.data)} cells, not {info.height} x {info.width}")
-    resolution, origin = round(info.resolution, 6), info.origin.position
-    check_finite("resolution or origin", info.resolution, origin.x, origin.y)
-    q = info.origin.orientation
-    if resolution <= 0.0 or any((q.x, q.y, q.z)):
-        raise MessageError(f"cells of {resolution:g} m, or a map that is turned")
+    checks.check_frame(message.header, frames.MAP)
+    checks.check_grid(message)
     cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
+    # The size of a cell has 32 bits: to the micrometre.
+    resolution, origin = round(info.resolution, 6), info.origin.position
     return GridMap(resolution, origin.x, origin.y, cells)
 
 
@@ -285,10 +240,9 @@ def command_message_of(now: int, frame_stamp: int, run: Run, command: Command) -
 
 def command_of(message: DriveCommand) -> tuple[int, Command]:
     """The stamp [ns] of the frame that it answers, and the command."""
-    command = Command(
-        message.throttle, message.brake, message.steering_angle, message.pickup, message.new_run
-    )
-    return stamp_of(message.frame_stamp), command
+    m = message
+    command = Command(m.throttle, m.brake, m.steering_angle, m.pickup, m.new_run)
+    return stamp_of(m.frame_stamp), command
 
 
 def _float32(values: np.ndarray) -> array:

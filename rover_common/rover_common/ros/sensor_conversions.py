@@ -16,8 +16,8 @@ from std_msgs.msg import Float32MultiArray, MultiArrayDimension, MultiArrayLayou
 from rover_common import frames
 from rover_common.burger import BURGER
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
-from rover_common.ros.conversions import check_fan, header_of, stamp_of
-from rover_common.ros.message_checks import MessageError, check_finite, check_unit
+from rover_common.ros.conversions import header_of, stamp_of
+from rover_common.ros.message_checks import MessageError, check_fan, check_finite, check_unit
 from rover_common.sensor_batches import Tick
 from rover_common.sensor_types import Imu, LaserScan, ThermalFrame, Twist, WheelOdometry
 

@@ -31,7 +31,10 @@ def transform_message_of(stamp: int, parent: str, child: str, pose: Pose) -> Tra
 def pose_of_transform(message: TransformStamped) -> Pose:
     """Of the child frame in its parent; raises MessageError."""
     at = message.transform.translation
-    return _pose_of(at.x, at.y, message.transform.rotation)
+    check_unit(message.transform.rotation)
+    pose = Pose(at.x, at.y, _yaw(message.transform.rotation))
+    check_finite("pose", pose.x, pose.y, pose.yaw)
+    return pose
 
 
 def pose_message_of(stamp: int, frame: str, pose: Pose) -> PoseStamped:
@@ -43,7 +46,8 @@ def pose_message_of(stamp: int, frame: str, pose: Pose) -> PoseStamped:
 def pose_of_message(message: PoseStamped) -> Pose:
     """In the frame of its header; raises MessageError."""
     at = message.pose.position
-    return _pose_of(at.x, at.y, message.pose.orientation)
+    check_unit(message.pose.orientation)
+    return Pose(at.x, at.y, _yaw(message.pose.orientation))
 
 
 def _quaternion(pose: Pose) -> Quaternion:
@@ -51,8 +55,6 @@ def _quaternion(pose: Pose) -> Quaternion:
     return Quaternion(x=x, y=y, z=z, w=w)
 
 
-def _pose_of(x: float, y: float, q: Quaternion) -> Pose:
-    check_unit(q)
+def _yaw(q: Quaternion) -> float:
     _, _, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
-    check_finite("pose", x, y, yaw)
-    return Pose(x, y, yaw)
+    return yaw
