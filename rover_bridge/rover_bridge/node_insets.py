@@ -27,7 +27,8 @@ from rover_bridge.insets import NO_INSETS, Insets, MapScene, encode_inset, map_i
 from rover_common import topics
 from rover_common.geometry import Pose, distance_between
 from rover_common.ros import qos
-from rover_common.ros.conversions import MessageError, grid_of, image_of, rocks_of, stamp_of
+from rover_common.ros.conversions import grid_of, image_of, rocks_of, stamp_of
+from rover_common.ros.message_checks import MessageError
 from rover_common.types import Run
 
 INPUTS = (

@@ -11,7 +11,7 @@ simulated time a frame waits for the plan that counts from it on, so that a miss
 from __future__ import annotations
 
 import time
-from collections import deque
+from collections import Counter, deque
 from functools import partial
 from typing import Any
 
@@ -32,6 +32,7 @@ from visualization_msgs.msg import MarkerArray
 from rover_common import nodes, topics
 from rover_common.ros import conversions, qos
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.message_checks import guarded
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.state import NodeState
@@ -78,13 +79,17 @@ class DecisionNode(Node):
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
         self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
+        invalid: Counter[str] = Counter()  # messages that cannot be used
+        guard = partial(guarded, self, invalid)
         heard = {
-            topic: self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
+            topic: self.create_subscription(
+                kind, topic, guard(partial(self._on_part, topic)), qos.FRAME
+            )
             for topic, kind in FRAME_PARTS.items()
         }
         parts = tuple(heard.values())
         heard[topics.NAVIGATION_MAP] = self.create_subscription(
-            OccupancyGrid, topics.NAVIGATION_MAP, self._on_map, qos.LATCHED
+            OccupancyGrid, topics.NAVIGATION_MAP, guard(self._on_map), qos.LATCHED
         )
         for request in Request:
             self.create_service(Trigger, f"~/{request.value}", partial(self._on_request, request))
@@ -98,6 +103,7 @@ class DecisionNode(Node):
         }
         self._inputs = DecisionInputs(self, heard)
         self._diagnostics = NodeDiagnostics(self, peers, self._inputs.monitor)
+        self._diagnostics.counts = invalid  # nothing was heard yet
         self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
 
     def destroy_node(self) -> None:

@@ -186,6 +186,7 @@ class HeatNode(Node):
         parts = mission.parts
         counts, warn = self._diagnostics.counts, self._diagnostics.set_warning
         counts["ticks"] += 1
+        counts |= self._sensors.counts
         counts["thermal_dropped"] = self._sensors.dropped + sum(parts.sensing.dropped.values())
         counts["plans_failed"] = self._core.plan_failures
         apart = parts.inputs.apart

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -19,8 +20,9 @@ from rover_common import frames, nodes, topics
 from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
-from rover_common.ros.conversions import MessageError, grid_of, stamp_of
+from rover_common.ros.conversions import grid_of, stamp_of
 from rover_common.ros.diagnostics import input_of
+from rover_common.ros.message_checks import MessageError, guarded
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.transforms import pose_of_transform
 from rover_common.sensor_batches import BatchCollector
@@ -50,6 +52,7 @@ class HeatSensors:
         self.grid: GridMap | None = None
         self.grid_stamp = 0  # [ns]
         self.dropped = 0  # thermal frames that are none
+        self.counts: Counter[str] = Counter()  # of messages that cannot be used
         thermal = self._on_thermal
         listened: list[tuple[Any, str, Callable[[Any], None], Any]] = [
             (LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
@@ -64,7 +67,12 @@ class HeatSensors:
         if lockstep:
             listened.append((SensorTick, topics.SENSOR_TICK, self._on_tick, qos.SENSOR))
         self.subscriptions = [
-            node.create_subscription(kind, topic, partial(self._store, topic, callback), profile)
+            node.create_subscription(
+                kind,
+                topic,
+                guarded(node, self.counts, partial(self._store, topic, callback)),
+                profile,
+            )
             for kind, topic, callback, profile in listened
         ]
         by_topic = dict(zip((row[1] for row in listened), self.subscriptions, strict=True))

@@ -17,6 +17,9 @@ SAMPLES = 13  # points on which a shortcut is tried
 # Breadcrumbs of one place that are told apart, however often the robot comes back to it: the graph
 # grows with the ground that was driven, not with the time. A place is as wide as their spacing.
 VISITS = 4
+# [m] Shortcuts over free ground begin and end at one breadcrumb of each place of this width: a wide
+# place where the robot circled for long has hundreds of them and not millions.
+SHORTCUT_PLACE = 1.5
 
 
 def breadcrumb_path(
@@ -47,11 +50,12 @@ def breadcrumb_path(
 
 
 def _places(
-    breadcrumbs: NDArray[np.float64], width: float
+    breadcrumbs: NDArray[np.float64], width: float, visits: int = VISITS
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """The breadcrumbs (k,) that stay, and the one of them (n,) that each breadcrumb becomes.
 
-    The first ones of each place [m] stay; all later ones become the last of these.
+    The first ones of each place [m], as many as the visits, stay; all later ones become the last of
+    these.
     """
     _, place = np.unique(np.floor(breadcrumbs / width), axis=0, return_inverse=True)
     order = np.argsort(place.ravel(), kind="stable")
@@ -59,7 +63,7 @@ def _places(
     begin = (np.cumsum(count) - count).repeat(count)  # of its place in the order
     visit = np.arange(len(order)) - begin
     stays = np.empty(len(order), np.intp)
-    stays[order] = order[begin + np.minimum(visit, VISITS - 1)]
+    stays[order] = order[begin + np.minimum(visit, visits - 1)]
     kept, node = np.unique(stays, return_inverse=True)
     return kept, node.ravel()
 
@@ -74,16 +78,13 @@ def _links(
     """Pairs of points (n, 2) [m] between which the robot may drive; it drove from node to node."""
     steps = np.sort(np.stack([node[:-1], node[1:]], axis=1), axis=1)
     driven = np.unique(_key(steps[steps[:, 0] < steps[:, 1]], len(points)))
-    pairs = tree.query_pairs(scale.breadcrumb_shortcut, output_type="ndarray")
-    length = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
-    keep = (length <= scale.breadcrumb_link) | np.isin(_key(pairs, len(points)), driven)
-    short = np.flatnonzero(~keep)
-    starts, ends = points[pairs[short, 0]], points[pairs[short, 1]]
-    keep[short] = _clear(starts, ends, costmap, scale.shortcut_clearance)
-    first, second = pairs[keep].T
-    begin, end = np.divmod(driven, len(points))
-    jump = np.linalg.norm(points[begin] - points[end], axis=1) > scale.breadcrumb_shortcut
-    return np.append(first, begin[jump]), np.append(second, end[jump])
+    linked = tree.query_pairs(scale.breadcrumb_link, output_type="ndarray")
+    some = _places(points, SHORTCUT_PLACE, visits=1)[0]
+    pairs = some[KDTree(points[some]).query_pairs(scale.breadcrumb_shortcut, output_type="ndarray")]
+    clear = _clear(points[pairs[:, 0]], points[pairs[:, 1]], costmap, scale.shortcut_clearance)
+    keys = [driven, _key(linked, len(points)), _key(pairs[clear], len(points))]
+    first, second = np.divmod(np.unique(np.concatenate(keys)), len(points))
+    return first, second
 
 
 def _key(pairs: NDArray[np.intp], count: int) -> NDArray[np.intp]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import cv2
 import numpy as np
@@ -73,8 +74,8 @@ def _crop(grid: GridMap, body: tuple[float, float]) -> tuple[GridGeometry, NDArr
     for axis, at in ((1, row), (0, col)):
         indices = np.flatnonzero(known.any(axis=axis))
         first, last = (indices[0], indices[-1]) if len(indices) else (at, at)
-        size = grid.cells.shape[1 - axis]
-        low = max(0, min(int(first), at) - MARGIN) // 2 * 2
+        size = grid.cells.shape[1 - axis] // 2 * 2  # the last cell of an odd number is left out
+        low = min(size - 2, max(0, min(int(first), at) - MARGIN) // 2 * 2)
         high = min(size, (max(int(last), at) + MARGIN + 1) // 2 * 2)
         bounds.append((low, high))
     (row0, row1), (col0, col1) = bounds
@@ -103,8 +104,19 @@ def _grown(mask: NDArray[np.bool_], cells: float) -> NDArray[np.bool_]:
 
 def _discs(geometry: GridGeometry, points: NDArray[np.float64], radius: float) -> NDArray[np.bool_]:
     """Cells within a radius [m] of any of the points (n, 2) [m], which may lie outside."""
-    mask = np.zeros((geometry.rows, geometry.cols), np.uint8)
-    rows, cols = geometry.cell_of(points[:, 0], points[:, 1])
-    for row, col in zip(rows.tolist(), cols.tolist(), strict=True):
-        cv2.circle(mask, (col, row), round(radius / geometry.resolution), 1, -1)
-    return mask.astype(bool)
+    mask = np.zeros((geometry.rows, geometry.cols), bool)
+    cells = np.stack(geometry.cell_of(points[:, 0], points[:, 1]))
+    disc = _disc(round(radius / geometry.resolution))
+    # Of a trail, each cell once: a robot that comes back costs nothing more.
+    rows, cols = (np.unique(cells, axis=1)[:, :, None] + disc[:, None]).reshape(2, -1)
+    inside = geometry.contains(rows, cols)
+    mask[rows[inside], cols[inside]] = True
+    return mask
+
+
+@cache
+def _disc(radius: int) -> NDArray[np.intp]:
+    """Rows and columns (2, n) of a disc of so many cells, from its middle."""
+    picture = np.zeros((2 * radius + 1, 2 * radius + 1), np.uint8)
+    cv2.circle(picture, (radius, radius), radius, 1, -1)
+    return np.stack(np.nonzero(picture)) - radius

@@ -9,7 +9,9 @@ Publishes map (latched), /tf (map -> odom), plan (while subscribed), cmd_vel (wh
 from __future__ import annotations
 
 import time
+from collections import Counter
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,6 +29,7 @@ from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.conversions import grid_message_of, grid_of, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.endpoint_watch import EndpointWatch
+from rover_common.ros.message_checks import guarded
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.transforms import transform_message_of
@@ -64,6 +67,7 @@ class NavigatorNode(Node):
         self._tick = self.create_publisher(NavigationTick, topics.NAVIGATION_TICK, qos.SENSOR)
         self._velocity = VelocityPublisher(self, config.stamped_cmd_vel)
         self._server = NavigateServer(self, self._navigator, config.goal_tolerance)
+        self._invalid: Counter[str] = Counter()  # messages that cannot be used
         subscriptions = self._subscribe()
         scan, imu, odometry = subscriptions[:3]
         limits = declare_parameters(self, InputLimits)
@@ -87,7 +91,11 @@ class NavigatorNode(Node):
             self._timer = self.create_timer(PERIOD, self._on_timer)
 
     def _subscribe(self) -> list[Any]:
-        subscribe = self.create_subscription
+        guard = partial(guarded, self, self._invalid)
+
+        def subscribe(kind: Any, topic: str, callback: Any, profile: Any) -> Any:
+            return self.create_subscription(kind, topic, guard(callback), profile)
+
         subscriptions = [
             subscribe(LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
             subscribe(Imu, topics.IMU, self._on_imu, qos.IMU),
@@ -161,6 +169,7 @@ class NavigatorNode(Node):
         self._show(output)
         counts = self._diagnostics.counts
         counts["steps"] += 1
+        counts |= self._invalid
         counts["relocations"] = output.relocations
         self._diagnostics.set_warning("navigator", "" if self._navigator.is_ready else output.why)
         self._answer(output)

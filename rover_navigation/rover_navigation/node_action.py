@@ -12,6 +12,7 @@ from rclpy.node import Node
 from rover_common import frames, topics
 from rover_common.burger import BURGER
 from rover_common.ros.actions import DeferringActionServer
+from rover_common.ros.message_checks import MessageError
 from rover_common.ros.transforms import pose_of_message
 from rover_navigation.conversions import feedback_of, result_of
 from rover_navigation.embedded_goal import EmbeddedGoal
@@ -81,6 +82,11 @@ class NavigateServer:
         frame = goal.pose.header.frame_id
         if frame not in ("", frames.MAP):
             self._node.get_logger().warning(f"goal rejected: it is in {frame}, not in {frames.MAP}")
+            return GoalResponse.REJECT
+        try:
+            pose_of_message(goal.pose)
+        except MessageError as error:
+            self._node.get_logger().warning(f"goal rejected: {error}")
             return GoalResponse.REJECT
         return GoalResponse.ACCEPT
 

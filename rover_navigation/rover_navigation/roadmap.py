@@ -13,6 +13,8 @@ from rover_navigation.costmap import Costmap
 from rover_navigation.grid_graph import grid_graph, node_numbers, path_nodes
 from rover_navigation.scale import Scale
 
+ROUNDING = 1e-6  # [s] of sums in another order
+
 
 @dataclass(frozen=True)
 class ShortestPaths:
@@ -61,9 +63,25 @@ class Roadmap:
         )
         return ShortestPaths(seconds, predecessors)
 
-    def seconds_from(self, sources: list[int]) -> NDArray[np.float64]:
-        """Travel times (sources, nodes) alone."""
-        return np.asarray(dijkstra(self._graph, indices=sources, directed=True))
+    def seconds_from(self, sources: list[int], limit: float = np.inf) -> NDArray[np.float64]:
+        """Travel times (sources, nodes) alone; inf beyond the limit [s]."""
+        return np.asarray(dijkstra(self._graph, indices=sources, directed=True, limit=limit))
+
+    def seconds_between(
+        self, nodes: list[int], from_here: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Travel times (n, n) between nodes that are reached from here, in so many seconds (n,).
+
+        From one to another it takes no longer than by here, so the search goes no farther: what it
+        costs depends on how far the nodes are, and not on the map.
+        """
+        farthest = float(from_here.max())
+        return np.concatenate(
+            [
+                self.seconds_from([node], float(seconds) + farthest + ROUNDING)[:, nodes]
+                for node, seconds in zip(nodes, from_here, strict=True)
+            ]
+        )
 
     def path(self, paths: ShortestPaths, source: int, target: int) -> NDArray[np.float64]:
         """Points (n, 2) [m] from source number `source` of the paths to a node, cell by cell."""

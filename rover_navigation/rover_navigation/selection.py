@@ -84,10 +84,11 @@ class WholeTour:
             return None
         nodes = [stop.node for stop in stops]
         first = _seconds_to(request.pose, roadmap, paths, stops, self._scale)
-        onward = roadmap.seconds_from(nodes)
-        last = onward[:, home] if home >= 0 else np.zeros(len(stops))
+        between = roadmap.seconds_between(nodes, paths.seconds[0, nodes])
+        # The way home takes as long as the way from home, so that one search serves all stops.
+        last = roadmap.seconds_from([home])[0, nodes] if home >= 0 else np.zeros(len(stops))
         worth = np.array([stop.worth for stop in stops])
-        cost = tour_costs(first, onward[:, nodes], last, worth)
+        cost = tour_costs(first, between, last, worth)
         at_once = float(paths.seconds[0, home]) if home >= 0 else 0.0
         if worth.sum() + at_once < cost.min():
             return None

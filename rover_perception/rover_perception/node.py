@@ -25,8 +25,8 @@ from sensor_msgs.msg import Image, LaserScan
 from rover_common import frames, nodes, topics
 from rover_common.input_monitor import Input, InputLimits, InputMonitor
 from rover_common.ros import conversions, qos
-from rover_common.ros.conversions import MessageError
 from rover_common.ros.diagnostics import NodeDiagnostics, input_of
+from rover_common.ros.message_checks import MessageError
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.ros.state import NodeState
@@ -38,10 +38,9 @@ from rover_perception.config import PerceptionConfig
 from rover_perception.factory import make_perception
 from rover_perception.frame_validation import FrameError
 
-# Counters in /diagnostics, beside those of FrameError's subclasses.
+# Counters in /diagnostics, beside those of the errors of messages and frames.
 FRAMES = "frames"
 FRAMES_INCOMPLETE = "frames_incomplete"
-IMAGE_ENCODING = "frame_image_encoding"
 
 VERSION = 1  # of what is saved
 LOG_PERIOD = 5.0  # [s] between two lines about dropped frames
@@ -126,10 +125,8 @@ class PerceptionNode(Node):
             )
             self._state.resume(frame.run, frame.stamp, self._resume)
             result = self._core.process(frame)
-        except FrameError as error:
+        except (FrameError, MessageError) as error:
             self._drop(error.counter, error)
-        except MessageError as error:
-            self._drop(IMAGE_ENCODING, error)
         else:
             self._diagnostics.counts[FRAMES] += 1
             self._inputs.note(FRAMES, now)

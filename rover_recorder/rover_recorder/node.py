@@ -26,8 +26,9 @@ from sensor_msgs.msg import Image
 
 from rover_common import topics
 from rover_common.errors import RoverError
-from rover_common.ros.conversions import MessageError, stamp_of
+from rover_common.ros.conversions import stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.message_checks import MessageError
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
 from rover_common.ros.runner import (

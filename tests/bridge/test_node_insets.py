@@ -21,6 +21,7 @@ from rover_bridge import node_insets
 from rover_bridge.node import BridgeNode
 from rover_common import frames, topics
 from rover_common.ros import conversions, qos
+from rover_common.ros.message_checks import MessageError
 from rover_common.types import FIRST_RUN, GridMap, RockTrack
 
 INSETS = "bridge_node_insets"
@@ -204,7 +205,7 @@ def test_a_picture_that_cannot_be_used_ends_no_drawing(ros, bridge, monkeypatch)
 
     def image_of(message: Image) -> np.ndarray:
         if next(bad, False):
-            raise conversions.MessageError("image encoding 'mono8', expected rgb8")
+            raise MessageError("image encoding 'mono8', expected rgb8")
         return made(message)
 
     monkeypatch.setattr(node_insets, "image_of", image_of)

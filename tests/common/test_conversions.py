@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from rover_common.geometry import Pose
 from rover_common.ros import conversions
+from rover_common.ros.message_checks import MessageError
 from rover_common.types import FIRST_RUN, Command, FreeScan, GridMap, PolarArray, RockTrack
 
 STAMP = 12_345_678_901_234
@@ -31,11 +32,11 @@ def test_image():
     message = conversions.image_message_of(STAMP, "camera", image)
     assert (conversions.image_of(message) == image).all()
     message.encoding = "bgr8"
-    with pytest.raises(conversions.MessageError, match="bgr8"):
+    with pytest.raises(MessageError, match="bgr8"):
         conversions.image_of(message)
     message.encoding = "rgb8"
     message.height = 5
-    with pytest.raises(conversions.MessageError, match="height"):
+    with pytest.raises(MessageError, match="height"):
         conversions.image_of(message)
 
 

@@ -13,7 +13,7 @@ from std_msgs.msg import Float32MultiArray
 
 from rover_common.geometry import Pose
 from rover_common.ros import sensor_conversions as sensors
-from rover_common.ros.conversions import MessageError
+from rover_common.ros.message_checks import MessageError
 from rover_common.sensor_batches import BatchCollector, Tick
 from rover_common.sensor_types import (
     Imu,

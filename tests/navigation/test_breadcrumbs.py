@@ -130,3 +130,23 @@ def test_obstacles_count_on_their_own_side_of_the_map_only():
     made = costmap(walled, trail, body=(29.0, 2.0))
     path = breadcrumb_path(trail, (29.5, -8.0), made, SCALE)
     assert np.allclose(path[:, 1], -8.0)
+
+
+def test_a_robot_that_circles_in_a_wide_place_makes_no_large_graph(monkeypatch):
+    """Every place within 6 m, driven through again and again: all of them could be linked."""
+    sizes = []
+
+    def counted(graph, *arguments, **options):
+        sizes.append(graph.nnz)
+        return dijkstra(graph, *arguments, **options)
+
+    monkeypatch.setattr(module, "dijkstra", counted)
+    turns = np.linspace(0.0, 2 * math.pi * 90, 9000)
+    radius = 5.5 * np.abs(np.sin(turns / 7.3))
+    trail = np.stack([30.0 + radius * np.cos(turns), 20.0 + radius * np.sin(turns)], axis=1)
+    lead = np.stack([np.arange(12.0, 30.0, 0.5), np.full(36, 20.0)], axis=1)
+    trail = np.concatenate([lead, trail])
+    here = tuple(trail[-1])
+    path = breadcrumb_path(trail, here, costmap(HALL, trail, body=here), SCALE)
+    assert sizes[0] < 60_000
+    assert length(path) < 1.1 * math.dist(here, trail[0])

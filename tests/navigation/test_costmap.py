@@ -1,7 +1,7 @@
 """The costmap: what is free, and how much clearance there is."""
 
 import numpy as np
-from maps import HALL, UNKNOWN, costmap, opened
+from maps import HALL, SCALE, UNKNOWN, costmap, opened
 
 from rover_common.map_encoding import EDGE
 from rover_common.types import GridMap
@@ -53,3 +53,13 @@ def test_it_covers_what_is_known_and_the_robot():
     assert made.geometry.rows % 2 == made.geometry.cols % 2 == 0
     alone = costmap(UNKNOWN, body=(0.1, 59.9))  # in the map's corner, where nothing is known
     assert alone.free[alone.geometry.cell_of(0.1, 59.9)]
+
+
+def test_a_trail_clears_whole_discs_wherever_it_goes():
+    trail = np.array([(30.0, 20.0), (0.1, 0.1), (-0.6, 30.0), (59.9, 59.9), (300.0, -50.0)])
+    made = costmap(UNKNOWN, trail, body=(30.0, 30.0))
+    x, y = made.geometry.center_of(*np.indices(made.free.shape))
+    away = np.hypot(x - trail[:, :1, None], y - trail[:, 1:2, None]).min(axis=0)
+    assert made.free[away < SCALE.trail_radius - 0.1].all()
+    near = np.hypot(x - 30.0, y - 30.0) < SCALE.blind_radius + 0.5
+    assert not made.free[(away > SCALE.trail_radius + 0.4) & ~near].any()

@@ -9,6 +9,7 @@ from scene import EXACT, draw
 
 from rover_common.geometry import Pose
 from rover_common.input_monitor import InputLimits
+from rover_common.ros.message_checks import INVALID, ImageMessageError
 from rover_common.types import CameraFrame
 from rover_perception import config, node
 from rover_perception.config import PerceptionConfig
@@ -35,9 +36,9 @@ def test_the_parameters_are_those_of_the_configuration():
         info = field.metadata["parameter"]
         assert row["default"] == str(field.default), field.name
         choices = ", ".join(info.choices)
-        limits = f"{info.minimum} to {info.maximum}"
+        limits = "" if info.minimum is None else f"{info.minimum} to {info.maximum}"
         assert row["range"].replace("`", "") == (choices or limits), field.name
-        if choices:
+        if choices or not limits:
             continue
         unit = info.description.split("]")[0].strip("[") if "[" in info.description else "frames"
         assert row["unit"].split()[0] == unit, field.name
@@ -45,7 +46,7 @@ def test_the_parameters_are_those_of_the_configuration():
 
 def test_the_counters_are_those_counted():
     of_errors = {error.counter for error in FrameError.__subclasses__()}
-    of_node = {node.FRAMES, node.FRAMES_INCOMPLETE, node.IMAGE_ENCODING}
+    of_node = {node.FRAMES, node.FRAMES_INCOMPLETE, INVALID, ImageMessageError.counter}
     listed = column(README, "Counters", "counter")
     assert len(listed) == len(set(listed))
     assert set(listed) == of_errors | of_node

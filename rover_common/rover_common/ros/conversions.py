@@ -19,8 +19,8 @@ from std_msgs.msg import Header
 
 from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT
-from rover_common.errors import RoverError
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
+from rover_common.ros import message_checks as checks
 from rover_common.types import (
     CameraFrame,
     Command,
@@ -34,10 +34,6 @@ from rover_common.types import (
 
 NANOSECONDS = 1_000_000_000
 JPEG_FORMAT = "rgb8; jpeg compressed bgr8"  # as image_transport writes it
-
-
-class MessageError(RoverError, ValueError):
-    """A message that cannot be used: wrong size or encoding."""
 
 
 def stamp_of(time: Time) -> int:
@@ -57,7 +53,9 @@ def header_of(stamp: int, frame: str) -> Header:
 
 
 def pose_of(odometry: Odometry) -> Pose:
-    """base_link in the odom frame, which is the map frame."""
+    """base_link in the odom frame, which is the map frame; raises MessageError."""
+    checks.check_frame(odometry.header, frames.ODOM, frames.MAP)
+    checks.check_unit(odometry.pose.pose.orientation)
     position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     roll, pitch, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
     return Pose(position.x, position.y, yaw, pitch, roll)
@@ -79,11 +77,13 @@ def run_of(status: RoverStatus) -> Run:
 
 
 def vehicle_state_of(odometry: Odometry, status: RoverStatus) -> VehicleState:
-    """Of the two messages of one telemetry."""
+    """Of the two messages of one telemetry; raises MessageError."""
+    pose, speed = pose_of(odometry), odometry.twist.twist.linear.x
+    checks.check_finite("pose or speed", pose.x, pose.y, pose.yaw, pose.pitch, pose.roll, speed)
     return VehicleState(
         stamp=stamp_of(odometry.header.stamp),
-        pose=pose_of(odometry),
-        speed=odometry.twist.twist.linear.x,
+        pose=pose,
+        speed=speed,
         near_sample=status.near_sample,
         picking_up=status.picking_up,
         sample_count=status.sample_count,
@@ -107,12 +107,10 @@ def image_message_of(stamp: int, frame: str, image: np.ndarray) -> Image:
 
 def image_of(message: Image) -> np.ndarray:
     """A read-only view (height, width, 3) uint8 of an rgb8 Image; raises MessageError."""
-    if message.encoding != "rgb8":
-        raise MessageError(f"image encoding '{message.encoding}', expected rgb8")
-    if message.step != 3 * message.width or len(message.data) != message.height * message.step:
-        raise MessageError("image data does not fit its height, width and step")
-    view = np.frombuffer(message.data, np.uint8)
-    return view.reshape(message.height, message.width, 3)
+    checks.check_image(message)
+    rows = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)
+    pixels = np.ascontiguousarray(rows[:, : 3 * message.width])  # rows may be longer than these
+    return pixels.reshape(message.height, message.width, 3)
 
 
 def jpeg_message_of(header: Header, jpeg: bytes) -> CompressedImage:
@@ -128,19 +126,17 @@ def camera_frame_of(image: Image, odometry: Odometry, status: RoverStatus) -> Ca
 
 def polar_message_of(stamp: int, run: Run, polar: PolarArray) -> PolarArrayMsg:
     """In base_link."""
-    return PolarArrayMsg(
-        header=header_of(stamp, frames.BASE),
-        run=run.number,
-        ranges=_float32(polar.ranges),
-        bearings=_float32(polar.bearings),
-    )
+    arrays = {"ranges": _float32(polar.ranges), "bearings": _float32(polar.bearings)}
+    return PolarArrayMsg(header=header_of(stamp, frames.BASE), run=run.number, **arrays)
 
 
 def polar_of(message: PolarArrayMsg) -> PolarArray:
-    """A read-only view of the message's arrays."""
-    return PolarArray(
-        np.frombuffer(message.ranges, np.float32), np.frombuffer(message.bearings, np.float32)
-    )
+    """A read-only view of the message's arrays; raises MessageError."""
+    checks.check_frame(message.header, frames.BASE)
+    ranges = np.frombuffer(message.ranges, np.float32)
+    bearings = np.frombuffer(message.bearings, np.float32)
+    checks.check_points(ranges, bearings)
+    return PolarArray(ranges, bearings)
 
 
 def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
@@ -157,14 +153,13 @@ def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
 
 
 def scan_of(message: LaserScan) -> FreeScan:
-    """A read-only view of the message's ranges."""
-    return FreeScan(
-        message.angle_min,
-        message.angle_increment,
-        message.range_min,
-        message.range_max,
-        np.frombuffer(message.ranges, np.float32),
-    )
+    """A read-only view of the message's ranges; raises MessageError."""
+    checks.check_frame(message.header, frames.BASE)
+    ranges = np.frombuffer(message.ranges, np.float32)
+    checks.check_fan(message, ranges)
+    checks.check_distances(ranges)
+    limits = message.range_min, message.range_max
+    return FreeScan(message.angle_min, message.angle_increment, *limits, ranges)
 
 
 def rocks_message_of(
@@ -189,7 +184,11 @@ def rocks_message_of(
 
 
 def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
-    """All confirmed rock tracks, in the map frame."""
+    """All confirmed rock tracks, in the map frame; raises MessageError."""
+    checks.check_frame(message.header, frames.MAP)
+    for rock in message.rocks:
+        at = rock.position
+        checks.check_finite("a rock", at.x, at.y, *map(float, rock.covariance))
     return tuple(
         RockTrack(
             id=rock.id,
@@ -215,9 +214,12 @@ def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
 
 
 def grid_of(message: OccupancyGrid) -> GridMap:
-    """A read-only view of the message's cells; their size to the micrometre, of its 32 bits."""
+    """A read-only view of the message's cells; raises MessageError."""
     info = message.info
+    checks.check_frame(message.header, frames.MAP)
+    checks.check_grid(message)
     cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
+    # The size of a cell has 32 bits: to the micrometre.
     resolution, origin = round(info.resolution, 6), info.origin.position
     return GridMap(resolution, origin.x, origin.y, cells)
 
@@ -238,10 +240,9 @@ def command_message_of(now: int, frame_stamp: int, run: Run, command: Command) -
 
 def command_of(message: DriveCommand) -> tuple[int, Command]:
     """The stamp [ns] of the frame that it answers, and the command."""
-    command = Command(
-        message.throttle, message.brake, message.steering_angle, message.pickup, message.new_run
-    )
-    return stamp_of(message.frame_stamp), command
+    m = message
+    command = Command(m.throttle, m.brake, m.steering_angle, m.pickup, m.new_run)
+    return stamp_of(m.frame_stamp), command
 
 
 def _float32(values: np.ndarray) -> array:

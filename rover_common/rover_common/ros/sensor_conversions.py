@@ -16,7 +16,8 @@ from std_msgs.msg import Float32MultiArray, MultiArrayDimension, MultiArrayLayou
 from rover_common import frames
 from rover_common.burger import BURGER
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
-from rover_common.ros.conversions import MessageError, header_of, stamp_of
+from rover_common.ros.conversions import header_of, stamp_of
+from rover_common.ros.message_checks import MessageError, check_fan, check_finite, check_unit
 from rover_common.sensor_batches import Tick
 from rover_common.sensor_types import Imu, LaserScan, ThermalFrame, Twist, WheelOdometry
 
@@ -41,7 +42,10 @@ def laser_scan_message_of(scan: LaserScan) -> LaserScanMsg:
 
 
 def laser_scan_of(message: LaserScanMsg) -> LaserScan:
-    """A read-only view of the message's ranges."""
+    """A read-only view of the message's ranges; raises MessageError."""
+    ranges = np.frombuffer(message.ranges, np.float32)
+    check_fan(message, ranges)
+    check_finite("time between two rays", message.time_increment)
     return LaserScan(
         stamp=stamp_of(message.header.stamp),
         angle_min=message.angle_min,
@@ -49,7 +53,7 @@ def laser_scan_of(message: LaserScanMsg) -> LaserScan:
         time_increment=message.time_increment,
         range_min=message.range_min,
         range_max=message.range_max,
-        ranges=np.frombuffer(message.ranges, np.float32),
+        ranges=ranges,
     )
 
 
@@ -67,11 +71,19 @@ def imu_message_of(imu: Imu) -> ImuMsg:
 
 
 def imu_of(message: ImuMsg) -> Imu:
-    """Without orientation where its covariance begins with -1, or where it is all zero."""
+    """Without orientation where its covariance begins with -1, or where it is all zero.
+
+    Raises MessageError.
+    """
     q = message.orientation
     orientation = (q.x, q.y, q.z, q.w)
     measured = message.orientation_covariance[0] != -1.0 and any(orientation)
+    if measured:
+        check_finite("orientation", *orientation)
+        check_unit(q)
     rate, acceleration = message.angular_velocity, message.linear_acceleration
+    check_finite("rotation", rate.x, rate.y, rate.z)
+    check_finite("acceleration", acceleration.x, acceleration.y, acceleration.z)
     return Imu(
         stamp=stamp_of(message.header.stamp),
         orientation=orientation if measured else None,
@@ -93,9 +105,13 @@ def wheel_odometry_message_of(odometry: WheelOdometry) -> Odometry:
 
 
 def wheel_odometry_of(message: Odometry) -> WheelOdometry:
-    """The heading to HEADING_DECIMALS; pitch and roll are none of it."""
+    """The heading to HEADING_DECIMALS; pitch and roll are none of it. Raises MessageError."""
+    twist = message.twist.twist
+    check_unit(message.pose.pose.orientation)
+    check_finite("velocity", twist.linear.x, twist.angular.z)
     position, q = message.pose.pose.position, message.pose.pose.orientation
     _, _, yaw = angles_from_quaternion(q.x, q.y, q.z, q.w)
+    check_finite("pose", position.x, position.y, yaw)
     return WheelOdometry(
         stamp=stamp_of(message.header.stamp),
         pose=Pose(position.x, position.y, round(yaw, HEADING_DECIMALS)),

@@ -14,6 +14,7 @@ from geometry_msgs.msg import Pose as PoseMsg
 
 from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
 from rover_common.ros.conversions import header_of
+from rover_common.ros.message_checks import check_finite, check_unit
 
 
 def transform_message_of(stamp: int, parent: str, child: str, pose: Pose) -> TransformStamped:
@@ -28,9 +29,12 @@ def transform_message_of(stamp: int, parent: str, child: str, pose: Pose) -> Tra
 
 
 def pose_of_transform(message: TransformStamped) -> Pose:
-    """Of the child frame in its parent."""
+    """Of the child frame in its parent; raises MessageError."""
     at = message.transform.translation
-    return Pose(at.x, at.y, _yaw(message.transform.rotation))
+    check_unit(message.transform.rotation)
+    pose = Pose(at.x, at.y, _yaw(message.transform.rotation))
+    check_finite("pose", pose.x, pose.y, pose.yaw)
+    return pose
 
 
 def pose_message_of(stamp: int, frame: str, pose: Pose) -> PoseStamped:
@@ -40,8 +44,9 @@ def pose_message_of(stamp: int, frame: str, pose: Pose) -> PoseStamped:
 
 
 def pose_of_message(message: PoseStamped) -> Pose:
-    """In the frame of its header."""
+    """In the frame of its header; raises MessageError."""
     at = message.pose.position
+    check_unit(message.pose.orientation)
     return Pose(at.x, at.y, _yaw(message.pose.orientation))
 
 
