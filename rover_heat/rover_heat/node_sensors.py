@@ -66,13 +66,9 @@ class HeatSensors:
         ]
         if lockstep:
             listened.append((SensorTick, topics.SENSOR_TICK, self._on_tick, qos.SENSOR))
+        guard, store = partial(guarded, node, self.counts), self._store
         self.subscriptions = [
-            node.create_subscription(
-                kind,
-                topic,
-                guarded(node, self.counts, partial(self._store, topic, callback)),
-                profile,
-            )
+            node.create_subscription(kind, topic, guard(partial(store, topic, callback)), profile)
             for kind, topic, callback, profile in listened
         ]
         by_topic = dict(zip((row[1] for row in listened), self.subscriptions, strict=True))
