@@ -25,18 +25,10 @@ MOST_SENT = 60  # connections of one fault that send a shape
 FORGET = struct.pack("ii", 1, 0)  # SO_LINGER: the connection is reset when it is closed
 
 
-def open_socket() -> socket.socket:
-    """A TCP socket of the loopback, whatever it is told to reach."""
-    connection = socket.socket()
-    connection.settimeout(TIMEOUT)
-    return connection
-
-
 @contextmanager
 def connected(port: int, websocket: bool = True) -> Iterator[socket.socket]:
-    """Raises OSError, also when a WebSocket is refused."""
-    with open_socket() as connection:
-        connection.connect((HOST, port))
+    """To the loopback alone; raises OSError, also when a WebSocket is refused."""
+    with socket.create_connection((HOST, port), TIMEOUT) as connection:
         if websocket:
             connection.sendall(HANDSHAKE)
             if b" 101 " not in connection.recv(4096):
