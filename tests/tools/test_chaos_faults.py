@@ -22,7 +22,7 @@ from rover_tools.chaos import wire_client
 from rover_tools.chaos.faults import Faults
 from rover_tools.chaos.plan import Fault, Kind
 from rover_tools.chaos.wire_client import MOST_HELD
-from rover_tools.chaos.wire_shapes import GOOD, WIRE_SHAPES
+from rover_tools.chaos.wire_shapes import GOOD, WIRE_SHAPES, event
 from rover_tools.runner.graph import HOST
 
 WAIT = 10.0  # [s]
@@ -138,13 +138,17 @@ def test_idle_connections_are_open_until_the_end(listener, target):
     assert set(listener.received) == {b""}
 
 
-def test_a_flood_is_bounded_and_ends(listener, monkeypatch):
-    monkeypatch.setattr(wire_client, "MOST_FLOODED", 1000)
+def test_a_flood_is_of_whole_messages_and_bounded(listener, monkeypatch):
+    monkeypatch.setattr(wire_client, "MOST_FLOODED", 1_000_000)
     end = faults(port=listener.port).begin(Fault(1, 0.0, Kind.FLOOD, "4 clients", 1.0))
     wait_for(lambda: len(listener.received) == 4)
     end()
-    assert all(b'"flood"' in content for content in listener.received)
-    assert sum(content.count(b"flood") for content in listener.received) < 3000
+    message = event("telemetry", {"speed": "flood"})
+    for content in listener.received:
+        assert content.startswith(message)
+        assert content.replace(message, b"") == message[: len(content) % len(message)]
+    total = sum(map(len, listener.received))
+    assert 1_000_000 <= total < 1_000_000 + 4 * wire_client.BURST * len(message)
 
 
 @pytest.mark.parametrize("shape", WIRE_SHAPES)

@@ -19,7 +19,7 @@ TIMEOUT = 1.0  # [s] to connect, to be answered and to send
 READ = 0.2  # [s] for an answer to a shape
 PAUSE = 0.02  # [s] between two bursts
 BURST = 200  # messages of a flood at once
-MOST_FLOODED = 50_000  # messages of one fault
+MOST_FLOODED = 5_000_000  # bytes of one fault: some 100,000 messages
 MOST_HELD = 80  # idle connections of one fault: more than the bridge has places
 MOST_SENT = 60  # connections of one fault that send a shape
 FORGET = struct.pack("ii", 1, 0)  # SO_LINGER: the connection is reset when it is closed
@@ -37,20 +37,26 @@ def connected(port: int, websocket: bool = True) -> Iterator[socket.socket]:
 
 
 def flood(port: int, clients: int, stopped: Stopped) -> int:
-    """Small telemetries as fast as they are taken, whose answers nobody reads; how many."""
+    """Small telemetries as fast as they are taken, whose answers nobody reads; how many bytes."""
     burst, sent = event("telemetry", {"speed": "flood"}) * BURST, 0
     with contextlib.ExitStack() as stack:
-        connections = []
+        rests: dict[socket.socket, bytes] = {}  # of a burst that was taken in part
         for _ in range(clients):
             with contextlib.suppress(OSError):
-                connections.append(stack.enter_context(connected(port)))
-        for connection in connections:
+                rests[stack.enter_context(connected(port))] = burst
+        for connection in rests:
             connection.setblocking(False)
-        while connections and not stopped() and sent < MOST_FLOODED:
-            for connection in connections:
-                # What a full buffer cuts is garbage to the bridge; it may end the connection.
-                with contextlib.suppress(OSError):
-                    sent += BURST * connection.send(burst) // len(burst)
+        while rests and not stopped() and sent < MOST_FLOODED:
+            for connection, rest in list(rests.items()):
+                try:
+                    taken = connection.send(rest)
+                except BlockingIOError:
+                    continue
+                except OSError:
+                    del rests[connection]
+                    continue
+                rests[connection] = rest[taken:] or burst
+                sent += taken
             time.sleep(PAUSE)
     return sent
 
