@@ -82,11 +82,11 @@ def time_limit_option(default: float | None, text: str) -> Callable[[F], F]:
     )  # fmt: skip
 
 
-def world_options(function: F) -> F:
+def world_options(function: F, size: float = 1.0) -> F:
     """--seed, --size, --map and --world, which reach the function as `world`, a WorldOptions."""
 
     @seed_option("Seed of the generated canyon, or of a map's samples.")
-    @size_option()
+    @size_option(size)
     @map_option("A map of 200 x 200 pixels instead; white is ground.")
     @click.option("--world", "folder", type=FOLDER, metavar="DIR",
                   help="A world's folder instead: map.png, world.yaml.")  # fmt: skip

@@ -74,11 +74,10 @@ class Simulation:
 
     def memory(self) -> dict[str, Any]:
         """What a simulation of the same world needs to go on, for JSON."""
-        vehicle = self._vehicle
         return {
             "time": self.time,
-            "pose": astuple(vehicle.pose),
-            "speed": vehicle.speed,
+            "pose": astuple(self._vehicle.pose),
+            "speed": self._vehicle.speed,
             "controls": astuple(self._controls),
             "samples": self._arm.on_the_ground,
             "contacts": self.contacts,

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from rover_tools.runner.domain import DomainError, reserved_domain
+from rover_tools.runner import domain as domains
+from rover_tools.runner.domain import DomainError, free_domain, reserved_domain
 from rover_tools.runner.processes import (
     RESPAWNS,
     WITH_PARENT,
@@ -85,6 +86,19 @@ def test_a_process_that_ends_again_and_again_is_told(tmp_path):
                 processes.check()
 
 
+def test_a_process_is_started_again_as_often_as_it_is_told(tmp_path):
+    with Processes(tmp_path, {}) as processes:
+        processes.start("worker", [sys.executable, "-c", ""])
+        processes.respawn(["worker"], most=1)
+        assert processes.respawns() == {}
+        wait_for(lambda: processes.ended("worker") is not None)
+        processes.check()
+        assert processes.respawns() == {"worker": 1}
+        wait_for(lambda: processes.ended("worker") is not None)
+        with pytest.raises(ProcessDiedError):
+            processes.check()
+
+
 @pytest.mark.skipif(not shutil.which(WITH_PARENT[0]), reason="needs setpriv")
 def test_processes_end_with_a_runner_that_is_killed(tmp_path):
     code = (
@@ -134,6 +148,19 @@ def test_a_chosen_domain_is_kept(monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", "42")
     with reserved_domain() as domain:
         assert domain == 42
+
+
+def test_a_chosen_domain_is_free_for_nobody_else_but_may_be_shared(monkeypatch):
+    with free_domain() as domain:
+        pass
+    monkeypatch.setattr(domains, "DOMAINS", range(domain, domain + 1))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    with reserved_domain() as first, reserved_domain() as second:
+        assert first == second == domain
+        with pytest.raises(DomainError, match="all DDS domains are in use"), free_domain():
+            pass
+    with free_domain() as free, reserved_domain() as inside:
+        assert free == inside == domain
 
 
 @pytest.mark.parametrize("text", ["east", "-1", "233"])

@@ -7,6 +7,7 @@ COMMANDS = {
     "fly": "mission",
     "start": "mission",
     "launch": "mission",
+    "faults": "chaos",
     "worldmap": "map",
     "stages": "explain",
     "show": "explain",

@@ -25,6 +25,7 @@ TABLE = {
     "explain": Entry(f"{COMMANDS}.explain", "perception's stages on one image, as a picture"),
     "sim": Entry("rover_simulator.main", "the embedded simulator alone, for any rover server"),
     "new": Entry(f"{COMMANDS}.new", "a package with an explorer or a perception of your own"),
+    "chaos": Entry(f"{COMMANDS}.chaos", "a mission whose nodes and wires have faults by a seed"),
     "heat": Entry(
         "rover_tools.cli.heat.group", "the second robot's mission: demo, mission, scoreboard, sim"
     ),

@@ -7,7 +7,7 @@ import os
 import random
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from rover_common.errors import RoverError
@@ -33,15 +33,12 @@ def chosen_domain() -> int | None:
 
 @contextmanager
 def reserved_domain() -> Iterator[int]:
-    """ROS_DOMAIN_ID where it is set; otherwise a free domain, held until the block ends.
+    """ROS_DOMAIN_ID where it is set, otherwise a free domain; held until the block ends.
 
     Raises DomainError.
     """
     chosen = chosen_domain()
-    if chosen is not None:
-        yield chosen
-        return
-    with free_domain() as domain:
+    with free_domain() if chosen is None else _shared_domain(chosen) as domain:
         yield domain
 
 
@@ -49,9 +46,8 @@ def reserved_domain() -> Iterator[int]:
 def free_domain() -> Iterator[int]:
     """A domain that no other run holds, held until the block ends; raises DomainError."""
     for domain in random.sample(DOMAINS, len(DOMAINS)):
-        lock = Path(tempfile.gettempdir()) / f"rover-domain-{domain}.lock"
         try:
-            handle = lock.open("w")
+            handle = _lock_of(domain).open("w")
         except PermissionError:  # another user's
             continue
         with handle:
@@ -62,3 +58,17 @@ def free_domain() -> Iterator[int]:
             yield domain
             return
     raise DomainError("all DDS domains are in use; end another run or set ROS_DOMAIN_ID")
+
+
+@contextmanager
+def _shared_domain(domain: int) -> Iterator[int]:
+    """No free one for others until the block ends; whoever is told to use it may share it."""
+    with ExitStack() as stack:
+        with suppress(PermissionError, BlockingIOError):  # another user's, or held by who set it
+            handle = stack.enter_context(_lock_of(domain).open("w"))
+            fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        yield domain
+
+
+def _lock_of(domain: int) -> Path:
+    return Path(tempfile.gettempdir()) / f"rover-domain-{domain}.lock"

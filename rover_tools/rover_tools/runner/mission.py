@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -67,9 +68,7 @@ def run_mission(
         if page:
             start_page(run, parameters or default_parameters(), open_page)
         with recording(run, record):
-            run.processes.start(SIMULATOR, _simulator_command(run, seed, fps, time_limit))
-            done = _watch(run, time_limit)
-            measured, grid = _measured(run)
+            done, measured, grid = _drive(run, seed, fps, time_limit)
             mission, rocks = run.watch.mission, run.watch.rocks()
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
@@ -83,7 +82,17 @@ def run_mission(
     return result
 
 
-def _measured(run: Run) -> tuple[MissionRun, GridMap | None]:
+def _drive(
+    run: Run, seed: int, fps: float, time_limit: float
+) -> tuple[bool, MissionRun, GridMap | None]:
+    """Whether the mission came to its end, and to what; nodes that end are started again."""
+    run.processes.respawn(NODES)
+    run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
+    done = watch_mission(run, time_limit)
+    return done, *end_and_measure(run)
+
+
+def end_and_measure(run: Run) -> tuple[MissionRun, GridMap | None]:
     """What the simulator says at its end, and the map of its last frame."""
     run.processes.end(SIMULATOR)  # only then has it printed its last position
     measured = read_run(*mission_state.logs_of(run.folder, SIMULATOR))
@@ -110,21 +119,23 @@ def _report(folder: Path, world: World, result: Result) -> None:
         note(f"no report: {error}")
 
 
-def _simulator_command(run: Run, seed: int, fps: float, time_limit: float) -> list[str]:
+def simulator_command(
+    run: Run, seed: int, fps: float, time_limit: float, rate: str = "fast"
+) -> list[str]:
+    """Of the embedded simulator; rate: as `rover sim` has it."""
     return [
         sys.executable, "-m", "rover_simulator.main", "--host", run.host, "--port", str(run.port),
-        "--world", str(run.folder / "world"), "--seed", str(seed), "--rate", "fast",
+        "--world", str(run.folder / "world"), "--seed", str(seed), "--rate", rate,
         "--fps", str(fps), "--time-limit", str(START_TIME + time_limit), "--progress",
         "--state", str(run.folder / mission_state.STATE / mission_state.SIMULATION),
     ]  # fmt: skip
 
 
-def _watch(run: Run, time_limit: float) -> bool:
+def watch_mission(run: Run, time_limit: float, tick: Callable[[], None] = lambda: None) -> bool:
     """Wait for the mission's end, and show its progress; whether the rover is home.
 
-    Nodes that end meanwhile are started again.
+    tick: called again and again meanwhile.
     """
-    run.processes.respawn(NODES)
     with Progress(time_limit, "s") as progress:
         while True:
             mission = run.watch.mission
@@ -135,6 +146,7 @@ def _watch(run: Run, time_limit: float) -> bool:
             if run.processes.ended(SIMULATOR) == 0:
                 return False
             run.processes.check()
+            tick()
             time.sleep(POLL_SECONDS)
 
 

@@ -43,7 +43,7 @@ class Processes:
         self._environment = {**os.environ, **environment}
         self._children: list[_Child] = []
         self._optional: set[str] = set()
-        self._respawned: set[str] = set()
+        self._respawned: dict[str, int] = {}  # how often at most
         self._remarks: list[str] = []
         self._parent = WITH_PARENT if shutil.which(WITH_PARENT[0]) else ()
         self.stop_seconds = STOP_SECONDS
@@ -70,9 +70,9 @@ class Processes:
         """The run goes on when the named process ends."""
         self._optional.add(name)
 
-    def respawn(self, names: Iterable[str]) -> None:
-        """From now on `check` starts these processes again when they have ended."""
-        self._respawned |= set(names)
+    def respawn(self, names: Iterable[str], most: int = RESPAWNS) -> None:
+        """From now on `check` starts these processes again when they have ended, so many times."""
+        self._respawned |= dict.fromkeys(names, most)
 
     def check(self) -> None:
         """Start those again that are to be, and raise ProcessDiedError when another one has ended.
@@ -83,7 +83,7 @@ class Processes:
             code = child.process.poll()
             if code is None or child.name in self._optional:
                 continue
-            if child.name not in self._respawned or child.respawns == RESPAWNS:
+            if child.respawns >= self._respawned.get(child.name, 0):
                 raise ProcessDiedError(
                     f"{child.name} ended with exit code {code}; the end of {child.log}:\n"
                     + _tail(child.log)
@@ -92,6 +92,10 @@ class Processes:
             note(self._remarks[-1])
             child.respawns += 1
             child.process = self._spawn(child.command, child.log)
+
+    def respawns(self) -> dict[str, int]:
+        """How often each process that ended was started again, until all are stopped."""
+        return {child.name: child.respawns for child in self._children if child.respawns}
 
     def remarks(self) -> dict[str, list[str]]:
         """For a result: `remarks` on what was started again; nothing where nothing was."""

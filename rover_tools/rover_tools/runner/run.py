@@ -62,12 +62,13 @@ def running_graph(
     folder: Path,
     overrides: Mapping[str, Mapping[str, object]] | None = None,
     parameters_file: Path | None = None,
+    watch: Callable[[int], GraphWatch] = GraphWatch,
 ) -> Iterator[Run]:
     """Start the graph and wait until its nodes are connected; everything ends with the block.
 
-    Raises DomainError, GraphNotReadyError or ProcessDiedError.
+    watch: makes the watch of a domain. Raises DomainError, GraphNotReadyError or ProcessDiedError.
     """
-    with started_graph(folder, overrides, parameters_file) as run:
+    with started_graph(folder, overrides, parameters_file, NODES, watch) as run:
         run.wait_ready()
         yield run
 
@@ -78,13 +79,14 @@ def started_graph(
     overrides: Mapping[str, Mapping[str, object]] | None = None,
     parameters_file: Path | None = None,
     nodes: Collection[str] = NODES,
+    watch: Callable[[int], GraphWatch] = GraphWatch,
 ) -> Iterator[Run]:
     """Start these nodes, which may lack a peer; everything ends with the block.
 
     Raises DomainError.
     """
     port = free_port()
-    with reserved_run(folder, GraphWatch) as begun:
+    with reserved_run(folder, watch) as begun:
         parameters = parameters_file or default_parameters()
         start_graph(begun.processes, port, parameters, overrides or {}, nodes)
         note(f"starting the graph; watch it with ROS_DOMAIN_ID={begun.domain_id}")
