@@ -15,6 +15,7 @@ class RecorderConfig:
     leave_out: str = parameter("nav_polar", "topics that are not recorded, separated by spaces")
     mission: str = parameter(
         "rover",
-        "whose topics have to be there before it is ready: rover or heat",
-        choices=("rover", "heat"),
+        "whose topics have to be there before it is ready: rover, heat, or drive for a rover"
+        " without a mission",
+        choices=("rover", "heat", "drive"),
     )

@@ -56,12 +56,13 @@ FLUSH_PERIOD = 1.0  # [s] a kill loses at most as much
 LAST_SECONDS = 0.3  # [s] for what was published before the end to arrive
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 # The graph is recorded when these are: what a replay needs, and what each node makes.
+SENSING = {
+    "bridge": (topics.COMPRESSED_IMAGE, topics.ODOMETRY, topics.STATUS),
+    "perception": (topics.WORLDMAP, topics.ROCKS),
+}
 NEEDED = {
-    "rover": {
-        "bridge": (topics.COMPRESSED_IMAGE, topics.ODOMETRY, topics.STATUS),
-        "perception": (topics.WORLDMAP, topics.ROCKS),
-        "decision": (topics.COMMAND, topics.MISSION_STATE),
-    },
+    "rover": SENSING | {"decision": (topics.COMMAND, topics.MISSION_STATE)},
+    "drive": SENSING,
     "heat": {
         "robot": (topics.SCAN, topics.IMU, topics.ODOMETRY),
         "navigator": (topics.MAP,),

@@ -66,7 +66,7 @@ def drive_world(
     with started_graph(folder, None, parameters, NODES) as run:
         if page:
             start_page(run, parameters or default_parameters(), open_page)
-        with recording(run, record, wait=False):  # until a decision node that never comes
+        with recording(run, record, "drive"):
             run.processes.start(SIMULATOR, _simulator_command(run, seed, fps))
             drive_graph(run.domain_id, terminal, run.processes.check)
             run.processes.end(SIMULATOR)

@@ -11,6 +11,8 @@ from rover_common.ros.velocity import VelocityPublisher
 from rover_common.sensor_types import Twist
 from rover_tools.runner.node_in_domain import NodeInDomain
 
+MOST_HEARD = 5  # messages between two velocities: odometry comes 50 times a second at most
+
 
 class Teleop(NodeInDomain):
     """Publishes cmd_vel_teleop, in the type that the bridge takes."""
@@ -26,7 +28,8 @@ class Teleop(NodeInDomain):
     def drive(self, wanted: Twist) -> None:
         """Say it, and hear what there is to hear."""
         self._velocity.publish(int(self.node.get_clock().now().nanoseconds), wanted)
-        self.executor.spin_once(timeout_sec=0.0)
+        for _ in range(MOST_HEARD):
+            self.executor.spin_once(timeout_sec=0.0)
 
     def _on_odometry(self, message: Odometry) -> None:
         self.speed = message.twist.twist.linear.x

@@ -34,14 +34,11 @@ def load_recording(path: Path) -> Recording:
 
 
 @contextmanager
-def recording(
-    run: ProcessRun[Any], wanted: bool = True, mission: str = "rover", *, wait: bool = True
-) -> Iterator[None]:
+def recording(run: ProcessRun[Any], wanted: bool = True, mission: str = "rover") -> Iterator[None]:
     """Record what happens in the block into the run's folder, in place of an older recording.
 
-    wait: until it hears all nodes of the mission. The node ends while the graph still runs, so that
-    its final state is recorded. Raises GraphNotReadyError or ProcessDiedError, but a recording that
-    ends too early is only a note.
+    The node ends while the graph still runs, so that its final state is recorded. Raises
+    GraphNotReadyError or ProcessDiedError, but a recording that ends too early is only a note.
     """
     if not wanted:
         yield
@@ -49,8 +46,7 @@ def recording(
     folder = run.folder / FOLDER
     shutil.rmtree(folder, ignore_errors=True)
     run.processes.start(RECORDER, recorder_command(folder, mission))
-    if wait:
-        run.wait_ready([RECORDER])
+    run.wait_ready([RECORDER])
     run.processes.make_optional(RECORDER)  # a mission must not end with a full disk
     yield
     if run.processes.ended(RECORDER) is None:

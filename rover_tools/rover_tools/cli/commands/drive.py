@@ -69,4 +69,4 @@ def command(
         page=not no_dashboard, open_page=open_page, record=not no_record,
     )  # fmt: skip
     print_result(result, as_json, summary(result))
-    note(f"the map and the recording are in {folder}")
+    note(f"results in {folder}")
