@@ -74,8 +74,7 @@ def run_mission(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=None if mission is None else mission.recoveries,
         wall_seconds=time.monotonic() - start,
-    )  # fmt: skip
-    result |= run.processes.remarks()
+    ) | run.processes.remarks()  # fmt: skip
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     if record:
         _report(folder, world, result)
