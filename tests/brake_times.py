@@ -31,6 +31,7 @@ from rover_simulator.world.generator import generate_world
 from rover_tools.runner.graph import NODES
 from rover_tools.runner.run import Run, running_graph
 
+PARAMETERS = Path(__file__).resolve().parents[1] / "rover_bringup" / "config" / "rover.yaml"
 SEED = 7
 FRAME_STEPS = 2  # 25 frames a second
 DEAD_MAN = 0.5  # [s]
@@ -135,7 +136,7 @@ def main() -> None:
     times: dict[str, list[float]] = defaultdict(list)
     with (
         tempfile.TemporaryDirectory() as folder,
-        running_graph(Path(folder)) as run,
+        running_graph(Path(folder), parameters_file=PARAMETERS) as run,
         simulating(simulation, run, FRAME_STEPS),
     ):
         run.processes.respawn(NODES)

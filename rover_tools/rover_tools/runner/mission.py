@@ -73,8 +73,7 @@ def run_mission(
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=mission and mission.recoveries, wall_seconds=time.monotonic() - start,
-    )  # fmt: skip
-    result |= run.processes.remarks()
+    ) | run.processes.remarks()  # fmt: skip
     write_results(folder, result, grid, measured.track, rocks, truth_of(world), world.name)
     mission_state.end(folder)
     if record:
