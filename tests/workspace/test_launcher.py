@@ -75,10 +75,11 @@ def test_a_platform_has_its_own_folder_and_interpreter(machine):
     assert done.stderr.endswith("; 3.12 is needed\n")
 
 
-def test_an_unknown_platform_is_told(machine):
-    done = machine.rover("test", "--platform", "plucky")
+@pytest.mark.parametrize(("given", "named"), [(["plucky"], "plucky"), ([], "none")])
+def test_an_unknown_platform_is_told(machine, given, named):
+    done = machine.rover("test", "--platform", *given)
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.startswith("rover: no platform 'plucky'")
+    assert done.stderr.startswith(f"rover: no platform '{named}'")
     assert not (machine.root / "log").exists()
 
 
