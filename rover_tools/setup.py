@@ -19,7 +19,7 @@ setup(
     maintainer_email="maintainers@rover.example",
     description="The rover command line: runs, evaluation, scoreboard and benchmarks.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"], "gym": ["gymnasium"]},
+    extras_require={"test": ["pytest"]} | {"gym": ["gymnasium"]},
     entry_points={
         "console_scripts": ["rover = rover_tools.cli.main:main"],
     },

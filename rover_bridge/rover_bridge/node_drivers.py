@@ -11,7 +11,6 @@ from typing import Any
 
 from geometry_msgs.msg import Twist as TwistMsg
 from geometry_msgs.msg import TwistStamped
-from rclpy.node import Node
 from rclpy.subscription import Subscription
 from std_msgs.msg import String
 
@@ -19,6 +18,7 @@ from rover_bridge.arbiter import Arbiter, Driver
 from rover_bridge.velocity_control import VelocityControl
 from rover_common import topics
 from rover_common.ros import qos
+from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.endpoint_watch import EndpointWatch
 from rover_common.ros.sensor_conversions import twist_of
@@ -32,7 +32,7 @@ class DriverTopics:
     """Says what a telemetry is answered with at once; None leaves it to the decision node."""
 
     def __init__(
-        self, node: Node, diagnostics: NodeDiagnostics, stamped: bool, command: Subscription
+        self, node: CheckedNode, diagnostics: NodeDiagnostics, stamped: bool, command: Subscription
     ) -> None:
         """stamped: whether velocities are TwistStamped; command: the decision node's topic."""
         self._node = node
@@ -44,7 +44,13 @@ class DriverTopics:
         self._publisher = node.create_publisher(String, topics.DRIVER, qos.LATCHED)
         kind = TwistStamped if stamped else TwistMsg
         self.subscriptions = [
-            node.create_subscription(kind, topic, partial(self._on_velocity, driver), qos.CONTROL)
+            node.create_subscription(
+                kind,
+                topic,
+                partial(self._on_velocity, driver),
+                qos.CONTROL,
+                refused=partial(self._on_refused, driver),
+            )
             for driver, topic in TOPICS.items()
         ]
         self._watch = EndpointWatch(node, diagnostics, self.subscriptions)
@@ -74,12 +80,11 @@ class DriverTopics:
 
     def _on_velocity(self, driver: Driver, message: Any) -> None:
         wanted = twist_of(message.twist if isinstance(message, TwistStamped) else message)
-        if not (math.isfinite(wanted.linear) and math.isfinite(wanted.angular)):
-            self._node.get_logger().warning(
-                f"{TOPICS[driver]}: no finite velocity: braking", throttle_duration_sec=5.0
-            )
-            wanted = Twist()
         self._arbiter.hear(driver, self._time, wanted)
+
+    def _on_refused(self, driver: Driver, _: Any) -> None:
+        """A velocity that cannot be used is a brake."""
+        self._arbiter.hear(driver, self._time, Twist())
 
     def _note(self, driver: Driver) -> None:
         if driver is not self._driver:

@@ -10,7 +10,7 @@ OURS = ("rover_", "burger_simulator")
 # What a refused message may change: what is counted and said, and what other threads do.
 ASIDE = (
     "rover_common.ros.diagnostics", "rover_common.ros.endpoint_watch", "rover_bridge.server",
-    "rover_common.ros.checked_node", "rover_bridge.inbox",
+    "rover_common.ros.checked_node", "rover_bridge.inbox", "rover_common.input_monitor",
 )  # fmt: skip
 NAMES_ASIDE = ("counts", "_last_lines", "_warned", "_orders")
 

@@ -33,6 +33,7 @@ def messages_of(stamp: int) -> dict[str, bytes]:
     command = conversions.command_message_of(stamp, stamp, Run(1, 0), Command(throttle=stamp / 10))
     grid = OccupancyGrid(header=header, data=array("b", [stamp] * 4))
     grid.info.width = grid.info.height = 2
+    grid.info.resolution, grid.info.origin.orientation.w = 0.5, 1.0
     return {
         topic: serialize_message(message)
         for topic, message in {
