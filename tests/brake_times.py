@@ -15,13 +15,14 @@ import tempfile
 import threading
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import cycle, islice, product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from waiting import holds
 
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.vehicle import STEP
@@ -92,15 +93,6 @@ def simulating(simulation: Simulation, run: Run, frame_steps: int) -> Iterator[N
         thread.join()
 
 
-def wait_for(predicate: Callable[[], bool], seconds: float) -> bool:
-    end = time.monotonic() + seconds
-    while not predicate():
-        if time.monotonic() > end:
-            return False
-        time.sleep(0.01)
-    return True
-
-
 def brake_time(simulation: WatchedSimulation, run: Run, node: str, number: int) -> float | None:
     """[s] from the last command to drive to the brake; None where the rover did not drive."""
 
@@ -109,11 +101,11 @@ def brake_time(simulation: WatchedSimulation, run: Run, node: str, number: int) 
         steady = time.monotonic() - simulation.driving_since > STEADY
         return simulation.driving and steady and simulation.speed > FAST
 
-    if not wait_for(drives, WAIT):
+    if not holds(drives, WAIT):
         return None
     pid, fault = run.processes.pid(node), time.monotonic()
     os.kill(pid, number)
-    braked = wait_for(lambda: simulation.braked_at > max(fault, simulation.driven_at), LONGEST)
+    braked = holds(lambda: simulation.braked_at > max(fault, simulation.driven_at), LONGEST)
     seconds = simulation.braked_at - simulation.driven_at if braked else LONGEST
     time.sleep(0.5)
     if number == signal.SIGSTOP:

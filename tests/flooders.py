@@ -8,13 +8,14 @@ from __future__ import annotations
 import argparse
 import json
 import socket
-import struct
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from rover_tools.chaos import wire_shapes
 
 HANDSHAKE = (
     "GET /socket.io/?EIO=4&transport=websocket HTTP/1.1\r\nHost: 127.0.0.1\r\n"
@@ -27,15 +28,7 @@ PIECE = 0.05  # [s] between two bursts of a flood at a rate
 
 def frame(text: str, opcode: int = 1, final: bool = True) -> bytes:
     """A WebSocket frame of a client; its mask is zero, so that it costs nothing here."""
-    payload = text.encode()
-    first, length = (0x80 if final else 0) | opcode, len(payload)
-    if length < 126:
-        head = struct.pack("!BB", first, 0x80 | length)
-    elif length < 65536:
-        head = struct.pack("!BBH", first, 0x80 | 126, length)
-    else:
-        head = struct.pack("!BBQ", first, 0x80 | 127, length)
-    return head + bytes(4) + payload
+    return wire_shapes.frame(text.encode(), opcode, final)
 
 
 def open_websocket(port: int) -> socket.socket:

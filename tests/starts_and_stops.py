@@ -16,10 +16,11 @@ import sys
 import tempfile
 import time
 import uuid
-from collections.abc import Callable
 from contextlib import suppress
 from itertools import cycle, islice, product
 from pathlib import Path
+
+from waiting import holds
 
 from rover_common.ros.shared_memory import FOLDER, NEW, remove_stale_memory
 
@@ -79,10 +80,10 @@ class Started:
         """Signal the command alone, as a person or an init system does; what is left."""
         memory = self.memory()
         self.process.send_signal(number)
-        if not wait_for(lambda: self.process.poll() is not None and not self.pids(), END):
+        if not holds(lambda: self.process.poll() is not None and not self.pids(), END):
             return [f"process {pid}: {_command_line(pid)}" for pid in self.pids()]
         if number == signal.SIGKILL:  # what the next start removes
-            wait_for(lambda: not remove(memory), 2 * NEW)
+            holds(lambda: not remove(memory), 2 * NEW)
         return [str(path) for path in memory if path.exists()]
 
     def kill(self) -> None:
@@ -97,15 +98,6 @@ def remove(memory: set[Path]) -> list[Path]:
     """Remove what killed processes left; which files stay."""
     remove_stale_memory()
     return [path for path in memory if path.exists()]
-
-
-def wait_for(predicate: Callable[[], bool], seconds: float) -> bool:
-    end = time.monotonic() + seconds
-    while not predicate():
-        if time.monotonic() > end:
-            return False
-        time.sleep(0.1)
-    return True
 
 
 def _command_line(pid: int) -> str:

@@ -7,8 +7,9 @@ import signal
 from collections.abc import Iterator
 
 import pytest
-from brake_times import DEAD_MAN, WAIT, WatchedSimulation, simulating, wait_for
+from brake_times import DEAD_MAN, WAIT, WatchedSimulation, simulating
 from diagnostic_msgs.msg import DiagnosticStatus
+from waiting import holds
 
 from rover_common import nodes
 from rover_simulator.world.generator import generate_world
@@ -41,7 +42,7 @@ def wait_until_it_drives(driving: Driving) -> None:
         run.processes.check()
         return simulation.driving and simulation.speed > 0.3
 
-    assert wait_for(drives, WAIT), health(run).message
+    assert holds(drives, WAIT), health(run).message
 
 
 def is_silent(run: Run, node: str) -> bool:
@@ -51,11 +52,11 @@ def is_silent(run: Run, node: str) -> bool:
 
 
 def wait_until_silence_is_told(run: Run, node: str) -> None:
-    assert wait_for(lambda: is_silent(run, node), WAIT), health(run).message
+    assert holds(lambda: is_silent(run, node), WAIT), health(run).message
 
 
 def wait_until_it_is_heard(run: Run, node: str) -> None:
-    assert wait_for(lambda: not is_silent(run, node), WAIT), health(run).message
+    assert holds(lambda: not is_silent(run, node), WAIT), health(run).message
 
 
 @pytest.mark.parametrize("node", NODES)
@@ -65,7 +66,7 @@ def test_the_rover_brakes_while_a_node_is_stopped_and_goes_on_afterwards(driving
     pid = run.processes.pid(node)
     os.kill(pid, signal.SIGSTOP)
     try:
-        assert wait_for(lambda: not simulation.driving and simulation.speed == 0.0, WAIT)
+        assert holds(lambda: not simulation.driving and simulation.speed == 0.0, WAIT)
         wait_until_silence_is_told(run, node)
     finally:
         os.kill(pid, signal.SIGCONT)
@@ -79,7 +80,7 @@ def test_the_rover_brakes_when_a_node_is_killed_and_goes_on_with_another_one(dri
     wait_until_it_drives(driving)
     stops, pid = simulation.dead_man_stops, run.processes.pid(node)
     os.kill(pid, signal.SIGKILL)
-    assert wait_for(lambda: not simulation.driving and simulation.speed == 0.0, WAIT)
+    assert holds(lambda: not simulation.driving and simulation.speed == 0.0, WAIT)
     wait_until_silence_is_told(run, node)
     if node == nodes.BRIDGE:
         assert simulation.dead_man_stops == stops + 1

@@ -6,12 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from waiting import holds
 
 from rover_common.map_encoding import navigable_cells
 from rover_common.ros import conversions
@@ -60,10 +60,7 @@ class Driven:
 
 
 def wait(condition) -> None:
-    end = time.monotonic() + WAIT
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.05)
+    assert holds(condition, WAIT)
 
 
 @pytest.fixture

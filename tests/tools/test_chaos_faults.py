@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from waiting import holds
 
 from rover_bridge.codec import decode_telemetry
 from rover_bridge.errors import TelemetryError
@@ -98,10 +99,7 @@ def listener() -> Iterator[Listener]:
 
 
 def wait_for(predicate: Callable[[], bool]) -> None:
-    end = time.monotonic() + WAIT
-    while not predicate():
-        assert time.monotonic() < end, "it did not happen in time"
-        time.sleep(0.01)
+    assert holds(predicate, WAIT), "it did not happen in time"
 
 
 def faults(nodes: object = None, port: int = 0, publish: object = None) -> Faults:

@@ -5,10 +5,10 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from waiting import holds
 
 from rover_tools.runner import domain as domains
 from rover_tools.runner.domain import DomainError, free_domain, reserved_domain
@@ -23,10 +23,7 @@ WAIT = 10.0  # [s]
 
 
 def wait_for(predicate) -> None:
-    end = time.monotonic() + WAIT
-    while not predicate():
-        assert time.monotonic() < end, "it did not happen in time"
-        os.sched_yield()
+    assert holds(predicate, WAIT), "it did not happen in time"
 
 
 def test_a_dead_process_is_told_with_the_end_of_its_log(tmp_path):

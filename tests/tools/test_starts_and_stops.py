@@ -5,7 +5,8 @@ from __future__ import annotations
 import signal
 
 import pytest
-from starts_and_stops import SIGNALS, Started, wait_for
+from starts_and_stops import SIGNALS, Started
+from waiting import holds
 
 from rover_tools.runner.graph import NODES
 
@@ -16,7 +17,7 @@ WAIT = 60.0  # [s]
 def test_a_demo_that_is_ended_leaves_nothing(tmp_path, number):
     started = Started("demo", tmp_path)
     try:
-        assert wait_for(lambda: len(started.pids()) > len(NODES) and started.memory(), WAIT)
+        assert holds(lambda: len(started.pids()) > len(NODES) and started.memory(), WAIT)
         assert started.end(number) == []
     finally:
         started.kill()
