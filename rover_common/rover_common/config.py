@@ -45,8 +45,14 @@ def parameter(
     return field(default=default, metadata={"parameter": info})
 
 
+def widened(value: Any, default: Any) -> Any:
+    """An integer as a float where the default is one: nobody should have to write 3.0 for 3."""
+    return float(value) if type(default) is float and type(value) is int else value
+
+
 def problem_of(value: Any, default: Any, info: ParameterInfo) -> str:
     """Why a parameter cannot have a value; empty when it can."""
+    value = widened(value, default)
     if type(value) is not type(default):
         return f"{value!r} is no {type(default).__name__}"
     if info.choices and value not in info.choices:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rover_common.geometry import Pose
-from rover_common.ros import conversions
+from rover_common.ros import conversions, scan_conversions
 from rover_common.types import FIRST_RUN, Command, FreeScan, GridMap, PolarArray, RockTrack
 
 STAMP = 12_345_678_901_234
@@ -43,14 +43,14 @@ def test_image():
 
 def test_polar_and_scan():
     polar = PolarArray(np.array([1, 2], np.float32), np.array([-0.5, 0.5], np.float32))
-    back = conversions.polar_of(conversions.polar_message_of(STAMP, FIRST_RUN, polar))
+    back = scan_conversions.polar_of(scan_conversions.polar_message_of(STAMP, FIRST_RUN, polar))
     assert (back.ranges == polar.ranges).all()
     assert (back.bearings == polar.bearings).all()
     ranges = np.array([1.0, np.inf, 2.0], np.float32)
     scan = FreeScan(-1.0, 1.0, 0.5, 12.0, ranges)
-    message = conversions.scan_message_of(STAMP, scan)
+    message = scan_conversions.scan_message_of(STAMP, scan)
     assert message.angle_max == pytest.approx(1.0)
-    assert (conversions.scan_of(message).ranges == ranges).all()
+    assert (scan_conversions.scan_of(message).ranges == ranges).all()
 
 
 def test_rocks():

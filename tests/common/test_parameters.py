@@ -84,3 +84,15 @@ def test_without_a_listener_nothing_is_settable(ros):
     declare_parameters(node, Settable)
     (result,) = node.set_parameters([Parameter("speed", value=2.5)])
     assert not result.successful
+
+
+def test_an_integer_is_taken_for_a_float_at_the_start_and_later(ros):
+    node, given = ros.add(lambda **kwargs: Node("n", **kwargs), speed=2), []
+    config = declare_parameters(node, Settable, given.append)
+    assert (config.speed, type(config.speed)) == (2.0, float)
+    (result,) = node.set_parameters([Parameter("speed", value=4)])
+    assert result.successful, result.reason
+    assert given == [Settable(speed=4.0)]
+    (result,) = node.set_parameters([Parameter("speed", value=6)])
+    assert not result.successful
+    assert node.get_parameter("speed").value == 4.0

@@ -65,7 +65,7 @@ def test_a_killed_node_leaves_memory_that_goes_and_a_living_one_keeps_its_own(mo
     nodes = []
     for _ in range(2):
         before = set(FOLDER.glob("fastrtps_*"))
-        domain = os.environ.get("ROS_DOMAIN_ID", "44")
+        domain = "44"
         process = subprocess.Popen(
             [sys.executable, "-c", NODE, domain], stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )

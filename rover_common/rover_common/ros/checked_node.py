@@ -31,13 +31,13 @@ class CheckedNode(Node):
     def __init__(self, name: str, **kwargs: Any) -> None:
         self.counts: Counter[str] = Counter()  # before rclpy subscribes /clock
         self.on_refused: Callable[[str, str], None] = lambda topic, why: None
-        self._frame_ids: dict[str, str] = {}
+        self._expected_frames: dict[str, str] = {}
         self._last_lines: dict[str, float] = {}  # [s] of wall time of the last line
         super().__init__(name, **kwargs)
 
     def expect_frames(self, frame_ids: Mapping[str, str]) -> None:
         """Refuse messages of these topics whose header names another frame."""
-        self._frame_ids |= frame_ids
+        self._expected_frames |= frame_ids
 
     def create_subscription(
         self,
@@ -69,7 +69,7 @@ class CheckedNode(Node):
         ahead = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec - now
         if now > 0 and ahead > AHEAD:  # simulated time is 0 until it begins
             raise StampError(f"a stamp {ahead / 1e9:.1f} s ahead of the clock")
-        wanted = self._frame_ids.get(topic)
+        wanted = self._expected_frames.get(topic)
         if wanted is not None and header.frame_id != wanted:
             raise FrameError(f"in frame '{header.frame_id}', not in '{wanted}'")
 

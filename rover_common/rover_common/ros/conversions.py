@@ -12,13 +12,13 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Quaternion
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rover_interfaces.msg import DriveCommand, RockTrackArray, RoverStatus
-from rover_interfaces.msg import PolarArray as PolarArrayMsg
 from rover_interfaces.msg import RockTrack as RockTrackMsg
-from sensor_msgs.msg import CompressedImage, Image, LaserScan
+from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import Header
 
-from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT
+from rover_common.covariance import TELEMETRY_COVARIANCE
+from rover_common.frames import FRAMES, Frames
 from rover_common.geometry import Pose, angles_from_rotation, quaternion_from_pose
 from rover_common.ros.images import image_of as image_of
 from rover_common.ros.message_checks import check_grid
@@ -26,9 +26,7 @@ from rover_common.ros.message_errors import MessageError as MessageError
 from rover_common.types import (
     CameraFrame,
     Command,
-    FreeScan,
     GridMap,
-    PolarArray,
     RockTrack,
     Run,
     VehicleState,
@@ -50,7 +48,7 @@ def time_of(stamp: int) -> Time:
 
 
 def header_of(stamp: int, frame: str) -> Header:
-    """`frame`: one of rover_common.frames."""
+    """`frame`: one of a robot's Frames."""
     return Header(stamp=time_of(stamp), frame_id=frame)
 
 
@@ -61,13 +59,18 @@ def pose_of(odometry: Odometry) -> Pose:
     return Pose(position.x, position.y, yaw, pitch, roll)
 
 
-def odometry_of(stamp: int, pose: Pose, speed: float) -> Odometry:
-    """`speed` [m/s]: along the body, forward positive."""
-    message = Odometry(header=header_of(stamp, frames.ODOM), child_frame_id=frames.BASE)
+def odometry_of(
+    stamp: int, pose: Pose, speed: float, yaw_rate: float = 0.0, frames: Frames = FRAMES
+) -> Odometry:
+    """`speed` [m/s]: along the body, forward positive; `yaw_rate` [rad/s]: left positive."""
+    message = Odometry(header=header_of(stamp, frames.odom), child_frame_id=frames.base)
     message.pose.pose.position = Point(x=pose.x, y=pose.y, z=ORIGIN_HEIGHT)
     x, y, z, w = quaternion_from_pose(pose)
     message.pose.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
     message.twist.twist.linear.x = speed
+    message.twist.twist.angular.z = yaw_rate
+    message.pose.covariance = TELEMETRY_COVARIANCE.pose.ravel()
+    message.twist.covariance = TELEMETRY_COVARIANCE.twist.ravel()
     return message
 
 
@@ -114,53 +117,16 @@ def camera_frame_of(image: Image, odometry: Odometry, status: RoverStatus) -> Ca
     return CameraFrame(stamp, pose_of(odometry), image_of(image), run_of(status))
 
 
-def polar_message_of(stamp: int, run: Run, polar: PolarArray) -> PolarArrayMsg:
-    """In base_link."""
-    return PolarArrayMsg(
-        header=header_of(stamp, frames.BASE),
-        run=run.number,
-        ranges=_float32(polar.ranges),
-        bearings=_float32(polar.bearings),
-    )
-
-
-def polar_of(message: PolarArrayMsg) -> PolarArray:
-    """A read-only view of the message's arrays."""
-    return PolarArray(
-        np.frombuffer(message.ranges, np.float32), np.frombuffer(message.bearings, np.float32)
-    )
-
-
-def scan_message_of(stamp: int, scan: FreeScan) -> LaserScan:
-    """In base_link."""
-    return LaserScan(
-        header=header_of(stamp, frames.BASE),
-        angle_min=scan.angle_min,
-        angle_max=scan.angle_min + scan.angle_increment * (len(scan.ranges) - 1),
-        angle_increment=scan.angle_increment,
-        range_min=scan.range_min,
-        range_max=scan.range_max,
-        ranges=_float32(scan.ranges),
-    )
-
-
-def scan_of(message: LaserScan) -> FreeScan:
-    """A read-only view of the message's ranges."""
-    return FreeScan(
-        message.angle_min,
-        message.angle_increment,
-        message.range_min,
-        message.range_max,
-        np.frombuffer(message.ranges, np.float32),
-    )
-
-
 def rocks_message_of(
-    stamp: int, run: Run, rocks: tuple[RockTrack, ...], map_stamp: int
+    stamp: int,
+    run: Run,
+    rocks: tuple[RockTrack, ...],
+    map_stamp: int,
+    frames: Frames = FRAMES,
 ) -> RockTrackArray:
     """In the map frame. `map_stamp` [ns]: of the newest maps at that frame."""
     return RockTrackArray(
-        header=header_of(stamp, frames.MAP),
+        header=header_of(stamp, frames.map),
         run=run.number,
         map_stamp=time_of(map_stamp),
         rocks=[
@@ -191,9 +157,9 @@ def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
     )
 
 
-def grid_message_of(stamp: int, grid: GridMap) -> OccupancyGrid:
+def grid_message_of(stamp: int, grid: GridMap, frames: Frames = FRAMES) -> OccupancyGrid:
     """In the map frame."""
-    message = OccupancyGrid(header=header_of(stamp, frames.MAP))
+    message = OccupancyGrid(header=header_of(stamp, frames.map))
     message.info.map_load_time = message.header.stamp
     message.info.resolution = grid.resolution
     message.info.height, message.info.width = grid.cells.shape
@@ -214,10 +180,12 @@ def grid_of(message: OccupancyGrid) -> GridMap:
     return GridMap(resolution, origin.x, origin.y, cells)
 
 
-def command_message_of(now: int, frame_stamp: int, run: Run, command: Command) -> DriveCommand:
+def command_message_of(
+    now: int, frame_stamp: int, run: Run, command: Command, frames: Frames = FRAMES
+) -> DriveCommand:
     """`now` [ns]: when it was decided; `frame_stamp` [ns] and `run`: of the frame it answers."""
     return DriveCommand(
-        header=header_of(now, frames.BASE),
+        header=header_of(now, frames.base),
         frame_stamp=time_of(frame_stamp),
         run=run.number,
         throttle=command.throttle,
@@ -234,7 +202,3 @@ def command_of(message: DriveCommand) -> tuple[int, Command]:
         message.throttle, message.brake, message.steering_angle, message.pickup, message.new_run
     )
     return stamp_of(message.frame_stamp), command
-
-
-def _float32(values: np.ndarray) -> array:
-    return array("f", np.ascontiguousarray(values, np.float32).tobytes())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
+from functools import partial
 from typing import Any, TypeVar
 
 from rcl_interfaces.msg import (
@@ -17,7 +18,7 @@ from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValu
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from rover_common.config import ParameterInfo
+from rover_common.config import ParameterInfo, widened
 from rover_common.errors import RoverError
 
 C = TypeVar("C")
@@ -34,7 +35,7 @@ def declare_parameters(
 
     Fields that are settable may be set while the node runs, within the same ranges and choices;
     `on_change` is called with the new configuration then. All others are read-only, and without
-    `on_change` every one is.
+    `on_change` every one is. An integer is taken for a float.
 
     Raises ParameterError for a value of a wrong type or range, or that is not one of the choices.
     """
@@ -44,6 +45,7 @@ def declare_parameters(
         info: ParameterInfo = field.metadata["parameter"]
         infos[field.name] = info
         read_only = on_change is None or not info.settable
+        _widen_given(node, field.name, field.default)
         try:
             parameter = node.declare_parameter(
                 field.name, field.default, _descriptor(info, field.default, read_only)
@@ -56,6 +58,8 @@ def declare_parameters(
             raise ParameterError(problem)
     config = config_class(**values)
     if on_change is not None:
+        defaults = {field.name: field.default for field in fields(config_class)}  # type: ignore[arg-type]
+        node.add_pre_set_parameters_callback(partial(_widen, defaults))
         _follow(node, config, infos, on_change)
     return config
 
@@ -73,6 +77,18 @@ def unknown_parameters(node: Node) -> list[str]:
             near = difflib.get_close_matches(name, known, 1)
             told.append(f"'{name}'; did you mean '{near[0]}'?" if near else f"'{name}'")
     return told
+
+
+def _widen_given(node: Node, name: str, default: Any) -> None:
+    """Of a value that a file or the command line sets."""
+    given = node._parameter_overrides  # not among rclpy's public names
+    if name in given and (value := widened(given[name].value, default)) is not given[name].value:
+        given[name] = Parameter(name, value=value)
+
+
+def _widen(defaults: dict[str, Any], parameters: list[Parameter]) -> list[Parameter]:
+    """Of values that are to be set while the node runs."""
+    return [Parameter(p.name, value=widened(p.value, defaults.get(p.name))) for p in parameters]
 
 
 def _expected(name: str, default: Any, info: ParameterInfo) -> str:

@@ -13,8 +13,9 @@ from sensor_msgs.msg import Imu as ImuMsg
 from sensor_msgs.msg import LaserScan as LaserScanMsg
 from std_msgs.msg import Float32MultiArray, MultiArrayDimension, MultiArrayLayout
 
-from rover_common import frames
 from rover_common.burger import BURGER
+from rover_common.covariance import ImuCovariance, OdometryCovariance
+from rover_common.frames import FRAMES, Frames
 from rover_common.geometry import Pose, angles_from_rotation, quaternion_from_pose
 from rover_common.ros.conversions import header_of, stamp_of
 from rover_common.ros.sensor_checks import check_thermal
@@ -25,11 +26,11 @@ from rover_common.sensor_types import Imu, LaserScan, ThermalFrame, Twist, Wheel
 HEADING_DECIMALS = 9
 
 
-def laser_scan_message_of(scan: LaserScan) -> LaserScanMsg:
+def laser_scan_message_of(scan: LaserScan, frames: Frames = FRAMES) -> LaserScanMsg:
     """In base_scan."""
     count = len(scan.ranges)
     return LaserScanMsg(
-        header=header_of(scan.stamp, frames.BASE_SCAN),
+        header=header_of(scan.stamp, frames.scan),
         angle_min=scan.angle_min,
         angle_max=scan.angle_min + scan.angle_increment * (count - 1),
         angle_increment=scan.angle_increment,
@@ -54,9 +55,15 @@ def laser_scan_of(message: LaserScanMsg) -> LaserScan:
     )
 
 
-def imu_message_of(imu: Imu) -> ImuMsg:
-    """In imu_link; covariances are not known, but for an orientation that is not measured."""
-    message = ImuMsg(header=header_of(imu.stamp, frames.IMU))
+def imu_message_of(
+    imu: Imu, covariance: ImuCovariance | None = None, frames: Frames = FRAMES
+) -> ImuMsg:
+    """In imu_link. Without a covariance all zero, which ROS takes for unknown."""
+    message = ImuMsg(header=header_of(imu.stamp, frames.imu))
+    if covariance is not None:
+        message.orientation_covariance = covariance.orientation.ravel()
+        message.angular_velocity_covariance = covariance.angular_velocity.ravel()
+        message.linear_acceleration_covariance = covariance.linear_acceleration.ravel()
     if imu.orientation is None:
         message.orientation_covariance[0] = -1.0
     else:
@@ -81,15 +88,22 @@ def imu_of(message: ImuMsg) -> Imu:
     )
 
 
-def wheel_odometry_message_of(odometry: WheelOdometry) -> Odometry:
-    """base_footprint in odom."""
+def wheel_odometry_message_of(
+    odometry: WheelOdometry,
+    covariance: OdometryCovariance | None = None,
+    frames: Frames = FRAMES,
+) -> Odometry:
+    """base_footprint in odom. Without a covariance all zero."""
     message = Odometry(
-        header=header_of(odometry.stamp, frames.ODOM), child_frame_id=frames.BASE_FOOTPRINT
+        header=header_of(odometry.stamp, frames.odom), child_frame_id=frames.footprint
     )
     message.pose.pose.position = Point(x=odometry.pose.x, y=odometry.pose.y, z=0.0)
     x, y, z, w = quaternion_from_pose(odometry.pose)
     message.pose.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
     message.twist.twist = twist_message_of(odometry.twist)
+    if covariance is not None:
+        message.pose.covariance = covariance.pose.ravel()
+        message.twist.covariance = covariance.twist.ravel()
     return message
 
 
@@ -127,9 +141,9 @@ def twist_message_of(twist: Twist) -> TwistMsg:
     return TwistMsg(linear=Vector3(x=twist.linear), angular=Vector3(z=twist.angular))
 
 
-def stamped_twist_message_of(stamp: int, twist: Twist) -> TwistStamped:
+def stamped_twist_message_of(stamp: int, twist: Twist, frames: Frames = FRAMES) -> TwistStamped:
     """In lockstep the stamp is that of the tick that it answers."""
-    header = header_of(stamp, frames.BASE_FOOTPRINT)
+    header = header_of(stamp, frames.footprint)
     return TwistStamped(header=header, twist=twist_message_of(twist))
 
 
@@ -137,9 +151,9 @@ def twist_of(message: TwistMsg) -> Twist:
     return Twist(message.linear.x, message.angular.z)
 
 
-def tick_message_of(tick: Tick) -> SensorTick:
+def tick_message_of(tick: Tick, frames: Frames = FRAMES) -> SensorTick:
     return SensorTick(
-        header=header_of(tick.stamp, frames.BASE_FOOTPRINT),
+        header=header_of(tick.stamp, frames.footprint),
         scans=tick.scans,
         imus=tick.imus,
         odometry=tick.odometry,

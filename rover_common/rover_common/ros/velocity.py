@@ -10,6 +10,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 from rover_common import topics
+from rover_common.frames import FRAMES, Frames
 from rover_common.ros import qos
 from rover_common.ros.sensor_conversions import stamped_twist_message_of, twist_message_of
 from rover_common.sensor_types import Twist
@@ -25,9 +26,12 @@ class VelocityPublisher:
     the one that it sends already, else the stamped one.
     """
 
-    def __init__(self, node: Node, stamped: str, topic: str = topics.CMD_VEL) -> None:
+    def __init__(
+        self, node: Node, stamped: str, frames: Frames = FRAMES, topic: str = topics.CMD_VEL
+    ) -> None:
         """stamped: auto (as the subscriber has it), true or false."""
         self._node, self._topic = node, topic
+        self._frames = frames
         self._publisher: Any = None
         if stamped == "auto":
             clock = Clock(clock_type=ClockType.STEADY_TIME)
@@ -46,7 +50,9 @@ class VelocityPublisher:
         if self._publisher is None:
             return
         stamped = self._publisher.msg_type is TwistStamped
-        message = stamped_twist_message_of(stamp, twist) if stamped else twist_message_of(twist)
+        message: Any = twist_message_of(twist)
+        if stamped:
+            message = stamped_twist_message_of(stamp, twist, self._frames)
         self._publisher.publish(message)
 
     def _look(self) -> None:
