@@ -18,6 +18,9 @@ setup(
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={
-        "console_scripts": ["simulator = rover_simulator.main:main"],
+        "console_scripts": [
+            "simulator = rover_simulator.main:main",
+            "simulator_node = rover_simulator.node:main",
+        ],
     },
 )

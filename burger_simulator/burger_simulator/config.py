@@ -10,6 +10,7 @@ from burger_simulator.world.families import FAMILIES
 from burger_simulator.world.generator import generate_maze
 from burger_simulator.world.maze import Maze
 from rover_common.config import parameter
+from rover_common.frames import BASE_SCAN, IMU, BurgerFrameConfig, Frames
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,11 @@ class BurgerConfig(BurgerOptions):
     family: str = parameter("challenge", "of the generated maze", choices=tuple(FAMILIES))
     world: str = parameter("", "file of a saved maze instead; empty for none")
     rate: float = parameter(
-        1.0, "times real time, 0 as fast as it goes", minimum=0.0, maximum=1000.0
+        1.0,
+        "times real time, 0 as fast as it goes",
+        minimum=0.0,
+        maximum=1000.0,
+        settable=True,
     )
     start_paused: bool = parameter(False, "whether time stands still until ~/resume")
     stamped_cmd_vel: bool = parameter(True, "TwistStamped on cmd_vel instead of Twist")
@@ -43,3 +48,22 @@ class BurgerConfig(BurgerOptions):
         if self.world:
             return Maze.load(Path(self.world))
         return generate_maze(self.seed, self.family)
+
+
+@dataclass(frozen=True)
+class SensorFrameConfig(BurgerFrameConfig):
+    """The frames of the robot with its sensors."""
+
+    scan_frame: str = parameter(BASE_SCAN, "frame of the lidar")
+    imu_frame: str = parameter(IMU, "frame of the inertial unit")
+
+    def frames(self) -> Frames:
+        """Raises FrameIdError."""
+        own = Frames(
+            map=self.map_frame,
+            odom=self.odom_frame,
+            footprint=self.base_frame,
+            scan=self.scan_frame,
+            imu=self.imu_frame,
+        )
+        return own.prefixed(self.frame_prefix)

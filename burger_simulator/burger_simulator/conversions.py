@@ -9,7 +9,7 @@ from tf2_msgs.msg import TFMessage
 from burger_simulator.model.robot import IMU_X, IMU_Z
 from burger_simulator.sensors.lidar import MOUNTING as LIDAR
 from burger_simulator.sensors.thermal import MOUNTING as THERMAL
-from rover_common import frames
+from rover_common.frames import FRAMES, Frames
 from rover_common.geometry import Pose, quaternion_from_pose
 from rover_common.ros.conversions import header_of, time_of
 from rover_common.sensor_types import WheelOdometry
@@ -17,27 +17,27 @@ from rover_common.sensor_types import WheelOdometry
 BASE_LINK_Z = 0.010  # [m] above base_footprint, as in the maker's model file
 
 
-def body_transform_of(odometry: WheelOdometry) -> TFMessage:
+def body_transform_of(odometry: WheelOdometry, frames: Frames = FRAMES) -> TFMessage:
     """odom -> base_footprint"""
     pose = odometry.pose
-    link = _transform(
-        odometry.stamp, frames.ODOM, frames.BASE_FOOTPRINT, (pose.x, pose.y, 0.0), pose
-    )
+    link = _transform(odometry.stamp, frames.odom, frames.footprint, (pose.x, pose.y, 0.0), pose)
     return TFMessage(transforms=[link])
 
 
-def static_transforms_of(stamp: int, thermal_yaws: tuple[float, float]) -> TFMessage:
+def static_transforms_of(
+    stamp: int, thermal_yaws: tuple[float, float], frames: Frames = FRAMES
+) -> TFMessage:
     """base_footprint -> base_link -> base_scan, imu_link, thermal_1_link, thermal_2_link"""
     level = Pose(0.0, 0.0, 0.0)
     below = {
-        frames.BASE_SCAN: (tuple(map(float, LIDAR)), level),
-        frames.IMU: ((IMU_X, 0.0, IMU_Z), level),
+        frames.scan: (tuple(map(float, LIDAR)), level),
+        frames.imu: ((IMU_X, 0.0, IMU_Z), level),
     }
-    for frame, yaw in zip(frames.THERMAL, thermal_yaws, strict=True):
+    for frame, yaw in zip((frames.thermal_1, frames.thermal_2), thermal_yaws, strict=True):
         below[frame] = (tuple(map(float, THERMAL)), Pose(0.0, 0.0, yaw))
-    links = [_transform(stamp, frames.BASE_FOOTPRINT, frames.BASE, (0.0, 0.0, BASE_LINK_Z), level)]
+    links = [_transform(stamp, frames.footprint, frames.base, (0.0, 0.0, BASE_LINK_Z), level)]
     for child, ((x, y, z), turned) in below.items():
-        links.append(_transform(stamp, frames.BASE, child, (x, y, z - BASE_LINK_Z), turned))
+        links.append(_transform(stamp, frames.base, child, (x, y, z - BASE_LINK_Z), turned))
     return TFMessage(transforms=links)
 
 

@@ -17,6 +17,7 @@ from burger_simulator.sensors.odometry import RATE, Odometer, wheel_speeds
 from burger_simulator.sensors.thermal import SAMPLE, ThermalSensor
 from burger_simulator.truth import Truth, TruthKeeper
 from burger_simulator.world.maze import Maze
+from rover_common.geometry import Pose
 from rover_common.sensor_types import (
     Imu,
     LaserScan,
@@ -42,15 +43,21 @@ DEFAULTS = BurgerOptions()
 class BurgerSimulation:
     """Advances tick by tick; the same maze, seed, options and velocities give the same batches."""
 
-    def __init__(self, maze: Maze, seed: int = 0, options: BurgerOptions = DEFAULTS) -> None:
-        """`seed`: of the sensors' noise; what is constant in a robot is drawn with the maze."""
+    def __init__(
+        self, maze: Maze, seed: int = 0, options: BurgerOptions = DEFAULTS, began: int = START
+    ) -> None:
+        """`seed`: of the sensors' noise; what is constant in a robot is drawn with the maze.
+
+        `began`: the stamp [ns] to begin at.
+        """
         self.maze = maze
+        self._began = began
         self._options = options
         self._physics = Physics(maze, options.box_body)
         lidar, imu, *thermal = (default_rng(child) for child in SeedSequence(seed).spawn(4))
         self._lidar = Lidar(self._physics, options.scan_rate, lidar)
         self._imu = InertialUnit(self._physics, maze.errors, imu)
-        self._odometer = Odometer(self._physics, self._imu, START, options.odometry_x)
+        self._odometer = Odometer(self._physics, self._imu, began, options.odometry_x)
         settings = zip(
             (options.thermal_yaw_1, options.thermal_yaw_2),
             (options.thermal_offset_1, options.thermal_offset_2),
@@ -67,13 +74,13 @@ class BurgerSimulation:
         self._launcher = Launcher()
         self._truth = TruthKeeper(self._physics, maze.ramp)
         self._steps = 0
-        self._twist_until = START
+        self._twist_until = began
         self._on_the_way: deque[ThermalFrame] = deque()  # frames that have not arrived
 
     @property
     def stamp(self) -> int:
         """[ns]"""
-        return START + self._steps * STEP_NS
+        return self._began + self._steps * STEP_NS
 
     @property
     def time(self) -> float:
@@ -84,6 +91,15 @@ class BurgerSimulation:
     def truth(self) -> Truth:
         """For scoring only."""
         return self._truth.at(self.time)
+
+    def place(self, pose: Pose) -> bool:
+        """Put the robot on level ground in the maze, standing; False where that is not free."""
+        inside = 0.0 < pose.x < self.maze.width and 0.0 < pose.y < self.maze.height
+        if not (inside and self._physics.place(pose)):
+            return False
+        self._twist_until = self.stamp
+        self._truth.moved()
+        return True
 
     def step(self, twist: Twist | None = None, launch: bool = False) -> SensorBatch:
         """One tick.

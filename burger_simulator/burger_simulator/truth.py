@@ -79,6 +79,10 @@ class TruthKeeper:
         self._distance += math.hypot(dx, dy)
         self._last = self._physics.position.copy()
 
+    def moved(self) -> None:
+        """The robot was put somewhere else: that is no way that it has driven."""
+        self._last = self._physics.position.copy()
+
     def launched(self, time: float) -> None:
         physics = self._physics
         self._launches.append(Launch(time, physics.pose, physics.speed, physics.turn_rate))

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rover_bridge.access import Access
 from rover_bridge.transport import WireLimits
 from rover_common.config import STATE_DIR, parameter
+from rover_common.frames import CAMERA, CAMERA_OPTICAL, FrameConfig, Frames
+from rover_common.ground_truth import load_truth
 
 
 @dataclass(frozen=True)
 class BridgeConfig:
-    """Read at the start of the node."""
+    """Read at the start of the node, but what is settable."""
 
     host: str = parameter("127.0.0.1", "address to listen on; 0.0.0.0 for other machines too")
     port: int = parameter(
@@ -54,9 +60,17 @@ class BridgeConfig:
         "when answers carry pictures for the simulator's screen: always, never, or auto: for a "
         "client that shows them",
         choices=("auto", "always", "never"),
+        settable=True,
     )
     inset_period: float = parameter(
-        0.5, "[s] of wall time between two pairs of insets", minimum=0.05, maximum=60.0
+        0.5,
+        "[s] of wall time between two pairs of insets",
+        minimum=0.05,
+        maximum=60.0,
+        settable=True,
+    )
+    camera_transforms: bool = parameter(
+        True, "send the transforms to the camera's frames; not where robot_state_publisher does"
     )
     truth: str = parameter(
         "", "picture of the true map, for the colours of the map's inset; empty for none"
@@ -67,6 +81,29 @@ class BridgeConfig:
         """Those of the transport."""
         return WireLimits(self.max_connections, self.client_rate, self.idle_limit)
 
+    def true_map(self) -> NDArray[np.bool_] | None:
+        """Raises TruthError."""
+        return load_truth(Path(self.truth)) if self.truth else None
+
     def access(self) -> Access:
         """Raises AccessError."""
         return Access(self.allowed_origins, self.token)
+
+
+@dataclass(frozen=True)
+class CameraFrameConfig(FrameConfig):
+    """The frames of the rover with its camera."""
+
+    camera_frame: str = parameter(CAMERA, "frame of the camera, x forward")
+    camera_optical_frame: str = parameter(CAMERA_OPTICAL, "frame of its images, z forward")
+
+    def frames(self) -> Frames:
+        """Raises FrameIdError."""
+        own = Frames(
+            map=self.map_frame,
+            odom=self.odom_frame,
+            base=self.base_frame,
+            camera=self.camera_frame,
+            camera_optical=self.camera_optical_frame,
+        )
+        return own.prefixed(self.frame_prefix)

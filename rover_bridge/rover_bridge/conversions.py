@@ -11,17 +11,17 @@ from rover_interfaces.msg import RoverStatus
 from sensor_msgs.msg import CameraInfo
 from tf2_msgs.msg import TFMessage
 
-from rover_common import frames
 from rover_common.camera import ORIGIN_HEIGHT, ROVER_CAMERA
+from rover_common.frames import FRAMES, Frames
 from rover_common.geometry import Pose, quaternion_from_pose
 from rover_common.ros.conversions import header_of, time_of
 from rover_common.types import Run, Telemetry
 
 
-def status_of(stamp: int, run: Run, telemetry: Telemetry) -> RoverStatus:
+def status_of(stamp: int, run: Run, telemetry: Telemetry, frames: Frames = FRAMES) -> RoverStatus:
     """In base_link, the samples in the map frame."""
     return RoverStatus(
-        header=header_of(stamp, frames.BASE),
+        header=header_of(stamp, frames.base),
         run=run.number,
         run_start=time_of(run.start),
         throttle=telemetry.throttle,
@@ -36,13 +36,13 @@ def status_of(stamp: int, run: Run, telemetry: Telemetry) -> RoverStatus:
     )
 
 
-def camera_info_of(stamp: int) -> CameraInfo:
+def camera_info_of(stamp: int, frames: Frames = FRAMES) -> CameraInfo:
     """The exact pinhole, in camera_optical_frame."""
     camera = ROVER_CAMERA
     # ROS counts pixel centres as whole numbers, the camera model their left edges.
     cx, cy, f = camera.center_u - 0.5, camera.center_v - 0.5, camera.focal
     return CameraInfo(
-        header=header_of(stamp, frames.CAMERA_OPTICAL),
+        header=header_of(stamp, frames.camera_optical),
         height=camera.height,
         width=camera.width,
         distortion_model="plumb_bob",
@@ -53,14 +53,14 @@ def camera_info_of(stamp: int) -> CameraInfo:
     )
 
 
-def body_transform_of(stamp: int, pose: Pose) -> TFMessage:
+def body_transform_of(stamp: int, pose: Pose, frames: Frames = FRAMES) -> TFMessage:
     """odom -> base_link"""
     return TFMessage(
         transforms=[
             _transform(
                 stamp,
-                frames.ODOM,
-                frames.BASE,
+                frames.odom,
+                frames.base,
                 (pose.x, pose.y, ORIGIN_HEIGHT),
                 quaternion_from_pose(pose),
             )
@@ -68,21 +68,22 @@ def body_transform_of(stamp: int, pose: Pose) -> TFMessage:
     )
 
 
-def static_transforms_of(stamp: int) -> TFMessage:
-    """map -> odom, base_link -> camera_link -> camera_optical_frame"""
+def static_transforms_of(
+    stamp: int, frames: Frames = FRAMES, camera_frames: bool = True
+) -> TFMessage:
+    """map -> odom, and with `camera_frames` base_link -> camera_link -> camera_optical_frame"""
     camera = ROVER_CAMERA
     level = (0.0, 0.0, 0.0, 1.0)
     # x right, y down, z forward out of x forward, y left, z up (REP-103)
     optical = (-0.5, 0.5, -0.5, 0.5)
     origin = (0.0, 0.0, 0.0)
     mounting = (camera.forward, 0.0, camera.up)
-    return TFMessage(
-        transforms=[
-            _transform(stamp, frames.MAP, frames.ODOM, origin, level),
-            _transform(stamp, frames.BASE, frames.CAMERA, mounting, level),
-            _transform(stamp, frames.CAMERA, frames.CAMERA_OPTICAL, origin, optical),
-        ]
-    )
+    below_base = [
+        _transform(stamp, frames.base, frames.camera, mounting, level),
+        _transform(stamp, frames.camera, frames.camera_optical, origin, optical),
+    ]
+    to_odom = _transform(stamp, frames.map, frames.odom, origin, level)
+    return TFMessage(transforms=[to_odom, *(below_base if camera_frames else [])])
 
 
 def clock_of(stamp: int) -> Clock:

@@ -19,6 +19,7 @@ class Counter(StrEnum):
     ANSWERED = "answered"  # with the decision on it
     DEADLINE_MISSED = "deadline_missed"  # with the brake: no decision in time
     SECOND_CLIENT = "second_client"  # with the brake: another client is active
+    INACTIVE = "inactive"  # with the brake: the node is not active
     OVERLOADED = "overloaded"  # with the brake: too many requests are pending
     UNCONFIRMED = "unconfirmed"  # with the brake: it contradicts those before it
     FAILED = "failed"  # with the brake: the node could not handle it, which is a defect of the node

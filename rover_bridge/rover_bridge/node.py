@@ -3,14 +3,15 @@
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
 carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the rover's health.
-Parameters: BridgeConfig, InputLimits. Counters: counters.Counter and errors. Beside it: node_insets
-and node_drivers.
+A lifecycle node. Parameters: BridgeConfig, InputLimits, LifecycleConfig, CameraFrameConfig.
+Counters: counters.Counter and errors. Beside it: node_insets, node_listener and node_drivers.
 """
 
 from __future__ import annotations
 
+import math
 import time
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
@@ -22,25 +23,23 @@ from rover_bridge import transport
 from rover_bridge.active_client import ActiveClient
 from rover_bridge.answer_sender import AnswerSender
 from rover_bridge.codec import decode_telemetry
-from rover_bridge.config import BridgeConfig
+from rover_bridge.config import BridgeConfig, CameraFrameConfig
 from rover_bridge.counters import Counter
 from rover_bridge.errors import TelemetryError
-from rover_bridge.inbox import Inbox
 from rover_bridge.node_drivers import DriverTopics
 from rover_bridge.node_inputs import BridgeInputs
 from rover_bridge.node_insets import InsetDrawer
+from rover_bridge.node_listener import Listener
 from rover_bridge.node_publishers import TelemetryPublishers
 from rover_bridge.node_runs import KeptRuns
 from rover_bridge.pending_requests import Answer, PendingRequest, PendingRequests
-from rover_bridge.server import SocketServer
 from rover_bridge.telemetry_clock import TelemetryClock
-from rover_bridge.trouble_log import TroubleLog
 from rover_common import nodes, topics
-from rover_common.ground_truth import load_truth
 from rover_common.ros import qos
-from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import command_of, stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.lifecycle import ManagedNode
+from rover_common.ros.notices import Notices
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.runner import run_node
 from rover_common.types import SAFE_COMMAND, Command
@@ -48,52 +47,42 @@ from rover_common.types import SAFE_COMMAND, Command
 # From a telemetry to its brake at most the deadline and a check of it pass. With a frame of the
 # simulator before and one after, that is less than 0.5 s of 10 frames a second.
 CHECKS_PER_DEADLINE = 10
-EVENTS_PER_TURN = 4  # taken from the inbox before commands and deadlines have their turn
 
 
-class BridgeNode(CheckedNode):
+class BridgeNode(ManagedNode):
     """Turns server events into topics, and commands into answers, in the executor's thread."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("bridge_node", **kwargs)
         try:
-            self._start(declare_parameters(self, BridgeConfig))
+            self._frames = declare_parameters(self, CameraFrameConfig).frames()
+            self._config = declare_parameters(
+                self, BridgeConfig, lambda new: self._insets.configure(new)
+            )
+            self._prepare(self._config)
+            self.start()
         except BaseException:
             self.destroy_node()  # before the context ends, which it must not outlive
             raise
 
-    def _start(self, config: BridgeConfig) -> None:
-        truth = load_truth(Path(config.truth)) if config.truth else None
-        self._insets = InsetDrawer(self, config, truth)
+    def _prepare(self, config: BridgeConfig) -> None:
+        self._insets = InsetDrawer(self, config, config.true_map(), self._frames.map)
         self._active = ActiveClient()
         self._requests = PendingRequests(config.answer_deadline)
         self._runs = KeptRuns(self, config.state_dir)
         simulated = bool(self.get_parameter("use_sim_time").value)
         self._telemetry_clock = TelemetryClock(time.time(), time.monotonic(), simulated)
-        self._log = TroubleLog()
-        self._inbox = Inbox()
-        self._arrival = self.create_guard_condition(self._on_arrivals)
-        self._server: transport.Transport = SocketServer(
-            config.host, config.port, self._on_server_event, config.limits(), config.access()
-        )
-        self.port = self._server.port
-        self._make_endpoints(config.enable_stamped_cmd_vel)
+        self._notices = Notices(self)
+        self._listener = Listener(self, self._on_event)
+        self._make_endpoints(config)
         # Wall time: a deadline that waited for simulated time would never come.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         period = config.answer_deadline / CHECKS_PER_DEADLINE
         self._deadline_timer = self.create_timer(period, self._check_deadlines, clock=steady)
-        self.get_logger().info(f"listening on {config.host}:{self.port}")
         self._publish_state()
 
-    def destroy_node(self) -> None:
-        """Close the connections, end the server's and the insets' threads, then the node."""
-        for part in ("_server", "_insets", "_runs"):
-            if hasattr(self, part):
-                getattr(self, part).close()
-        super().destroy_node()
-
-    def _make_endpoints(self, stamped: bool) -> None:
-        self._topics = TelemetryPublishers(self, int(self.get_clock().now().nanoseconds))
+    def _make_endpoints(self, config: BridgeConfig) -> None:
+        self._topics = TelemetryPublishers(self, self._frames, config)
         self._state = self.create_publisher(String, topics.BRIDGE_STATE, qos.LATCHED)
         drive = self.create_subscription(  # what it cannot use brakes, and no later than the rest
             DriveCommand, topics.COMMAND, self._on_command, qos.FRAME,
@@ -102,23 +91,38 @@ class BridgeNode(CheckedNode):
         self._inputs = BridgeInputs(self, drive)
         self._diagnostics = NodeDiagnostics(
             self, self._topics.peers(drive), self._inputs.monitor,
-            lambda now: self._inputs.expect(now, bool(self._active.name), self._requests.empty),
+            lambda now: self._inputs.expect(
+                now, self.active and bool(self._active.name), self._requests.empty
+            ),
         )  # fmt: skip
-        self._answers = AnswerSender(self._server, self._insets.take, self._diagnostics.counts)
+        self._answers = AnswerSender(self._listener, self._insets.take, self._diagnostics.counts)
         self._diagnostics.join(nodes.ROVER, self._inputs.limits.input_error_age)
-        self._drivers = DriverTopics(self, self._diagnostics, stamped, drive)
+        self._drivers = DriverTopics(self, self._diagnostics, config.enable_stamped_cmd_vel, drive)
 
-    def _on_server_event(self, event: transport.ServerEvent) -> None:
-        """Called in the server's thread."""
-        self._inbox.put(event)
-        self._arrival.trigger()
+    def configure(self) -> None:
+        """Listen; until it is activated, every telemetry is answered with the brake."""
+        self._listener.open(self._config)
+        self.port = self._listener.port
+        self.get_logger().info(f"listening on {self._config.host}:{self.port}")
 
-    def _on_arrivals(self) -> None:
-        for _ in range(EVENTS_PER_TURN):
-            if (event := self._inbox.take()) is None:
-                return
-            self._on_event(event)
-        self._arrival.trigger()
+    def deactivate(self) -> None:
+        """Brake: what waits for a decision, and all that comes."""
+        for answer in self._requests.expire(math.inf):
+            self._answers.send(replace(answer, counter=Counter.INACTIVE))
+
+    def cleanup(self) -> None:
+        """Listen no more."""
+        self._listener.close()
+        if self._active.name is not None:
+            self._on_disconnected(self._active.name)
+        self._active = ActiveClient()
+
+    def destroy_node(self) -> None:
+        """Close the connections, end the server's and the insets' threads, then the node."""
+        for part in ("_listener", "_insets", "_runs"):
+            if hasattr(self, part):
+                getattr(self, part).close()
+        super().destroy_node()
 
     def _on_event(self, event: transport.ServerEvent) -> None:
         if isinstance(event, transport.TelemetryReceived):
@@ -149,6 +153,9 @@ class BridgeNode(CheckedNode):
     def _on_telemetry(self, event: transport.TelemetryReceived) -> None:
         self._answers.read(event.client, event.wire)
         client, now = event.client, time.monotonic()
+        if not self.active:
+            self._refuse(client, Counter.INACTIVE, "the bridge is not active: braking")
+            return
         if not self._active.accepts(client, now, owes=self._requests.empty):
             self._refuse(client, Counter.SECOND_CLIENT, "another client is active: braking")
             return
@@ -200,10 +207,8 @@ class BridgeNode(CheckedNode):
             self._runs.request(message.run)
         self._drivers.hear_decision()
         if self._answer(stamp, command):
-            now = time.monotonic()
-            self._inputs.note_command(now)
-            if (missed := self._log.ends(Counter.DEADLINE_MISSED, now)) is not None:
-                self.get_logger().info(f"decisions come in time again, after {missed:.1f} s")
+            self._inputs.note_command(time.monotonic())
+            self._notices.end(Counter.DEADLINE_MISSED, "decisions come in time again")
 
     def _answer(self, stamp: int, command: Command) -> bool:
         """The telemetry of this stamp [ns]; False if it has its answer already."""
@@ -212,7 +217,7 @@ class BridgeNode(CheckedNode):
             self._diagnostics.counts[Counter.COMMANDS_LATE] += 1
             return False
         if answer.counter == Counter.PICKUP_REFUSED:
-            self._warn(answer.counter, "pickup refused: no sample in reach, or not standing still")
+            self._notices.warn(answer.counter, "pickup refused: no sample in reach, or moving")
         self._answers.send(answer)
         return True
 
@@ -220,7 +225,7 @@ class BridgeNode(CheckedNode):
         now = time.monotonic()
         for answer in self._requests.expire(now):
             self._inputs.drop_command(now)
-            self._warn(answer.counter, "no decision in time: braking")
+            self._notices.warn(answer.counter, "no decision in time: braking")
             self._answers.send(answer)
 
     def _drop(self, client: str, now: float, counter: str, why: str) -> None:
@@ -229,7 +234,7 @@ class BridgeNode(CheckedNode):
 
     def _refuse(self, client: str, counter: str, text: str) -> None:
         """Answer a telemetry that is not published with the safe brake, and tell why."""
-        self._warn(counter, text)
+        self._notices.warn(counter, text)
         self._answers.send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
     def _publish_state(self) -> None:
@@ -237,12 +242,7 @@ class BridgeNode(CheckedNode):
 
     def _count(self, counter: str, text: str) -> None:
         self._diagnostics.counts[counter] += 1
-        self._warn(counter, text)
-
-    def _warn(self, counter: str, text: str) -> None:
-        """Log a line as the trouble of this counter begins."""
-        if self._log.begins(counter, time.monotonic()):
-            self.get_logger().warning(text)
+        self._notices.warn(counter, text)
 
 
 def main() -> None:

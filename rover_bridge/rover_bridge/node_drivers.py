@@ -40,7 +40,7 @@ class DriverTopics:
         self._arbiter = Arbiter()
         self._control = VelocityControl()
         self._time = -math.inf  # [s] of the newest telemetry
-        self._driver: Driver | None = None
+        self._driver = Driver.NOBODY
         self._publisher = node.create_publisher(String, topics.DRIVER, qos.LATCHED)
         kind = TwistStamped if stamped else TwistMsg
         self.subscriptions = [
@@ -54,7 +54,7 @@ class DriverTopics:
             for driver, topic in TOPICS.items()
         ]
         self._watch = EndpointWatch(node, diagnostics, self.subscriptions)
-        self._note(Driver.NOBODY)
+        self._publish()
 
     def answer(self, stamp: int, telemetry: Telemetry) -> Command | None:
         """The command for the telemetry of this stamp [ns]; None: it waits for decision's."""
@@ -89,5 +89,8 @@ class DriverTopics:
     def _note(self, driver: Driver) -> None:
         if driver is not self._driver:
             self._driver = driver
-            self._publisher.publish(String(data=driver.value))
+            self._publish()
             self._node.get_logger().info(f"driver: {driver.value}")
+
+    def _publish(self) -> None:
+        self._publisher.publish(String(data=self._driver.value))

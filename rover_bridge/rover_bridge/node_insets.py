@@ -24,7 +24,7 @@ from sensor_msgs.msg import Image
 from rover_bridge.codec import shows_insets
 from rover_bridge.config import BridgeConfig
 from rover_bridge.insets import NO_INSETS, Insets, MapScene, encode_inset, map_inset
-from rover_common import frames, topics
+from rover_common import topics
 from rover_common.geometry import Pose, distance_between
 from rover_common.ros import qos
 from rover_common.ros.checked_node import CheckedNode
@@ -45,7 +45,7 @@ LOG_PERIOD = 5.0  # [s] between two lines about pictures that cannot be made
 class InsetNode(CheckedNode):
     """Holds the newest message of each topic that can be used; the bridge counts the others."""
 
-    def __init__(self, bridge: CheckedNode) -> None:
+    def __init__(self, bridge: CheckedNode, map_frame: str) -> None:
         super().__init__(
             f"{bridge.get_name()}_insets",
             context=bridge.context,
@@ -56,7 +56,7 @@ class InsetNode(CheckedNode):
             enable_rosout=False,
         )
         self.counts = bridge.counts
-        self.expect_frames({topics.WORLDMAP: frames.MAP, topics.ROCKS: frames.MAP})
+        self.expect_frames({topics.WORLDMAP: map_frame, topics.ROCKS: map_frame})
         self._newest: dict[str, Any] = {}
         self._inputs = {
             topic: self.create_subscription(
@@ -85,9 +85,13 @@ class InsetDrawer:
     """
 
     def __init__(
-        self, bridge: CheckedNode, config: BridgeConfig, truth: NDArray[np.bool_] | None
+        self,
+        bridge: CheckedNode,
+        config: BridgeConfig,
+        truth: NDArray[np.bool_] | None,
+        map_frame: str,
     ) -> None:
-        self._bridge = bridge
+        self._bridge, self._map_frame = bridge, map_frame
         self._mode, self._period, self._truth = config.insets, config.inset_period, truth
         self._client: str | None = None  # the active client, if it shows insets
         self._poses: deque[tuple[Run, Pose]] = deque(maxlen=MOST_POSES)
@@ -97,6 +101,10 @@ class InsetDrawer:
         self._run: Run | None = None  # this and what follows belongs to the thread
         self._pose: Pose | None = None
         self._track: list[Pose] = []
+
+    def configure(self, config: BridgeConfig) -> None:
+        """From the next telemetry and the next pair on."""
+        self._mode, self._period = config.insets, config.inset_period
 
     def follow(self, client: str, wire: object, run: Run, pose: Pose) -> None:
         """A telemetry of the active client."""
@@ -138,7 +146,7 @@ class InsetDrawer:
         """The thread: a node while a client shows insets."""
         while self._shown.wait() and not self._ended.is_set():
             try:
-                node = InsetNode(self._bridge)
+                node = InsetNode(self._bridge, self._map_frame)
                 try:
                     self._draw_pairs(node)
                 finally:

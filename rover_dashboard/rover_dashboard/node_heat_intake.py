@@ -14,7 +14,8 @@ from rover_interfaces.msg import HeatSourceArray, HeatState
 from std_msgs.msg import Float32MultiArray
 from visualization_msgs.msg import Marker, MarkerArray
 
-from rover_common import frames, topics
+from rover_common import topics
+from rover_common.frames import MAP, ODOM, bare
 from rover_common.geometry import Pose, compose, compose_points
 from rover_common.ros.conversions import pose_of, stamp_of
 from rover_common.ros.transforms import pose_of_transform
@@ -86,7 +87,7 @@ class HeatIntake:
         )
 
     def _take_transform(self, link: TransformStamped) -> None:
-        if (link.header.frame_id, link.child_frame_id) == (frames.MAP, frames.ODOM):
+        if (bare(link.header.frame_id), bare(link.child_frame_id)) == (MAP, ODOM):
             self._correction = pose_of_transform(link)
 
     def _take_map(self, message: OccupancyGrid) -> None:

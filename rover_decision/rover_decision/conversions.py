@@ -9,10 +9,10 @@ from geometry_msgs.msg import Point, PoseStamped, Quaternion
 from geometry_msgs.msg import Pose as PoseMsg
 from nav_msgs.msg import Path as PathMsg
 from rover_interfaces.msg import MissionState
-from std_msgs.msg import ColorRGBA
+from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from rover_common import frames
+from rover_common.frames import FRAMES, Frames
 from rover_common.ros.conversions import header_of
 from rover_common.types import RockTrack, Run
 from rover_decision.types import Decision, Overlay
@@ -23,10 +23,12 @@ GREEN, YELLOW = ColorRGBA(g=0.8, a=1.0), ColorRGBA(r=1.0, g=0.8, a=1.0)
 RED = ColorRGBA(r=1.0, a=0.6)
 
 
-def mission_state_of(stamp: int, run: Run, decision: Decision) -> MissionState:
+def mission_state_of(
+    stamp: int, run: Run, decision: Decision, frames: Frames = FRAMES
+) -> MissionState:
     progress = decision.progress
     return MissionState(
-        header=header_of(stamp, frames.MAP),
+        header=header_of(stamp, frames.map),
         state=int(decision.state),
         run=run.number,
         state_name=decision.state.name,
@@ -43,9 +45,9 @@ def mission_state_of(stamp: int, run: Run, decision: Decision) -> MissionState:
     )
 
 
-def path_message_of(stamp: int, path: Path) -> PathMsg:
+def path_message_of(stamp: int, path: Path, frames: Frames = FRAMES) -> PathMsg:
     """The poses of a path face along it."""
-    header = header_of(stamp, frames.MAP)
+    header = header_of(stamp, frames.map)
     steps = np.diff(path.points, axis=0, append=path.points[-1:])
     yaws = np.arctan2(steps[:, 1], steps[:, 0])
     yaws[-1:] = yaws[-2:-1] if len(yaws) > 1 else 0.0
@@ -64,32 +66,35 @@ def path_message_of(stamp: int, path: Path) -> PathMsg:
     )
 
 
-def markers_of(stamp: int, rocks: tuple[RockTrack, ...], overlay: Overlay) -> MarkerArray:
+def markers_of(
+    stamp: int, rocks: tuple[RockTrack, ...], overlay: Overlay, frames: Frames = FRAMES
+) -> MarkerArray:
     """Breadcrumbs, rocks, blocked places, and the plan: frontiers, goal and path."""
     plan = overlay.plan
     path = NO_POINTS if overlay.path is None else overlay.path.points
     goal = [] if plan is None or plan.goal is None else [(plan.goal.x, plan.goal.y)]
     rock_points = [(rock.x, rock.y) for rock in rocks]
     blocked = [(place.x, place.y) for place in overlay.blocked]
+    header = header_of(stamp, frames.map)
     return MarkerArray(
         markers=[
-            _marker(stamp, "breadcrumbs", Marker.LINE_STRIP, 0.15, BLUE, overlay.breadcrumbs),
-            _marker(stamp, "path", Marker.LINE_STRIP, 0.25, GREEN, path),
-            _marker(stamp, "frontiers", Marker.SPHERE_LIST, 0.5, CYAN, overlay.frontiers),
-            _marker(stamp, "goal", Marker.SPHERE_LIST, 1.0, GREEN, goal),
-            _marker(stamp, "rocks", Marker.SPHERE_LIST, 0.6, YELLOW, rock_points),
-            _marker(stamp, "blocked", Marker.SPHERE_LIST, 1.0, RED, blocked),
+            _marker(header, "breadcrumbs", Marker.LINE_STRIP, 0.15, BLUE, overlay.breadcrumbs),
+            _marker(header, "path", Marker.LINE_STRIP, 0.25, GREEN, path),
+            _marker(header, "frontiers", Marker.SPHERE_LIST, 0.5, CYAN, overlay.frontiers),
+            _marker(header, "goal", Marker.SPHERE_LIST, 1.0, GREEN, goal),
+            _marker(header, "rocks", Marker.SPHERE_LIST, 0.6, YELLOW, rock_points),
+            _marker(header, "blocked", Marker.SPHERE_LIST, 1.0, RED, blocked),
         ]
     )
 
 
 def _marker(
-    stamp: int, name: str, kind: int, size: float, color: ColorRGBA, points: Iterable[Iterable]
+    header: Header, name: str, kind: int, size: float, color: ColorRGBA, points: Iterable[Iterable]
 ) -> Marker:
     """Without points it takes away what was shown under its name."""
     at = [Point(x=float(x), y=float(y), z=0.1) for x, y in points]
     action = Marker.ADD if at else Marker.DELETE
-    marker = Marker(header=header_of(stamp, frames.MAP), ns=name, type=kind, action=action)
+    marker = Marker(header=header, ns=name, type=kind, action=action)
     marker.pose.orientation.w = 1.0
     marker.scale.x = marker.scale.y = marker.scale.z = size
     marker.color = color

@@ -28,9 +28,10 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-from rover_common import frames, nodes, topics
+from rover_common import nodes, topics
 from rover_common.errors import RoverError
-from rover_common.ros import conversions, qos
+from rover_common.frames import FrameConfig, Frames
+from rover_common.ros import conversions, qos, scan_conversions
 from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.diagnostics import NodeDiagnostics
 from rover_common.ros.parameters import declare_parameters
@@ -54,14 +55,6 @@ FRAME_PARTS = {
     topics.FREE_SCAN: LaserScan,
     topics.ROCKS: RockTrackArray,
 }
-FRAME_IDS = {
-    topics.ODOMETRY: frames.ODOM,
-    topics.NAV_POLAR: frames.BASE,
-    topics.ROCK_POLAR: frames.BASE,
-    topics.FREE_SCAN: frames.BASE,
-    topics.ROCKS: frames.MAP,
-    topics.NAVIGATION_MAP: frames.MAP,
-}
 Parts = dict[str, Any]  # of one frame, by topic
 VERSION = 1  # of what is saved
 REPORT_PERIOD = 500_000_000  # [ns] of frame time
@@ -73,6 +66,7 @@ class DecisionNode(CheckedNode):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("decision_node", **kwargs)
+        self._frames = declare_parameters(self, FrameConfig).frames()
         config = declare_parameters(self, DecisionConfig, self._on_config)
         lockstep = bool(self.get_parameter("use_sim_time").value)
         self._config = config
@@ -87,7 +81,7 @@ class DecisionNode(CheckedNode):
         self._state = self.create_publisher(MissionState, topics.MISSION_STATE, qos.LATCHED)
         self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._markers = self.create_publisher(MarkerArray, topics.MISSION_MARKERS, qos.VIEW)
-        self.expect_frames(FRAME_IDS)
+        self.expect_frames(_frame_ids_of(self._frames))
         heard = {
             topic: self.create_subscription(kind, topic, partial(self._on_part, topic), qos.FRAME)
             for topic, kind in FRAME_PARTS.items()
@@ -170,7 +164,9 @@ class DecisionNode(CheckedNode):
         decision = self._core.step(frame)
         now = int(self.get_clock().now().nanoseconds)
         self._command.publish(
-            conversions.command_message_of(now, frame.stamp, frame.run, decision.command)
+            conversions.command_message_of(
+                now, frame.stamp, frame.run, decision.command, self._frames
+            )
         )
         self._inputs.note(FRAMES)
         self._diagnostics.counts["frames"] += 1
@@ -208,7 +204,7 @@ class DecisionNode(CheckedNode):
         elif self._reported is not None and abs(frame.stamp - self._reported[0]) < REPORT_PERIOD:
             return
         self._reported = (frame.stamp, decision.state)
-        report = mission_state_of(frame.stamp, frame.run, decision)
+        report = mission_state_of(frame.stamp, frame.run, decision, self._frames)
         self._state.publish(report)
         self._action.on_report(report)
         self._show(frame)
@@ -217,20 +213,33 @@ class DecisionNode(CheckedNode):
         """Plan and markers, while subscribed."""
         overlay = self._core.mission.overlay()
         if self._plan.get_subscription_count() > 0 and overlay.path is not None:
-            self._plan.publish(path_message_of(frame.stamp, overlay.path))
+            self._plan.publish(path_message_of(frame.stamp, overlay.path, self._frames))
         if self._markers.get_subscription_count() > 0:
-            self._markers.publish(markers_of(frame.stamp, frame.rocks, overlay))
+            markers = markers_of(frame.stamp, frame.rocks, overlay, self._frames)
+            self._markers.publish(markers)
+
+
+def _frame_ids_of(frames: Frames) -> dict[str, str]:
+    """What the headers of a topic's messages have to name."""
+    return {
+        topics.ODOMETRY: frames.odom,
+        topics.NAV_POLAR: frames.base,
+        topics.ROCK_POLAR: frames.base,
+        topics.FREE_SCAN: frames.base,
+        topics.ROCKS: frames.map,
+        topics.NAVIGATION_MAP: frames.map,
+    }
 
 
 def _frame_of(parts: Parts) -> Frame:
     rocks = parts[topics.ROCKS]
     return Frame(
         vehicle=conversions.vehicle_state_of(parts[topics.ODOMETRY], parts[topics.STATUS]),
-        nav=conversions.polar_of(parts[topics.NAV_POLAR]),
-        scan=conversions.scan_of(parts[topics.FREE_SCAN]),
+        nav=scan_conversions.polar_of(parts[topics.NAV_POLAR]),
+        scan=scan_conversions.scan_of(parts[topics.FREE_SCAN]),
         rocks=conversions.rocks_of(rocks),
         map_stamp=conversions.stamp_of(rocks.map_stamp),
-        rock=conversions.polar_of(parts[topics.ROCK_POLAR]),
+        rock=scan_conversions.polar_of(parts[topics.ROCK_POLAR]),
     )
 
 

@@ -6,16 +6,18 @@ from geometry_msgs.msg import Point
 from rover_interfaces.msg import HeatSource as HeatSourceMsg
 from rover_interfaces.msg import HeatSourceArray, HeatState
 
-from rover_common import frames
+from rover_common.frames import FRAMES, Frames
 from rover_common.ros.conversions import header_of
 from rover_common.types import Run
 from rover_heat.types import HeatDecision, HeatSource
 
 
-def heat_state_of(stamp: int, run: Run, decision: HeatDecision) -> HeatState:
+def heat_state_of(
+    stamp: int, run: Run, decision: HeatDecision, frames: Frames = FRAMES
+) -> HeatState:
     progress = decision.progress
     return HeatState(
-        header=header_of(stamp, frames.MAP),
+        header=header_of(stamp, frames.map),
         state=int(decision.state),
         run=run.number,
         state_name=decision.state.name,
@@ -32,10 +34,12 @@ def heat_state_of(stamp: int, run: Run, decision: HeatDecision) -> HeatState:
     )
 
 
-def heat_sources_of(stamp: int, run: Run, sources: tuple[HeatSource, ...]) -> HeatSourceArray:
+def heat_sources_of(
+    stamp: int, run: Run, sources: tuple[HeatSource, ...], frames: Frames = FRAMES
+) -> HeatSourceArray:
     """All of a run."""
     return HeatSourceArray(
-        header=header_of(stamp, frames.MAP),
+        header=header_of(stamp, frames.map),
         run=run.number,
         sources=[
             HeatSourceMsg(

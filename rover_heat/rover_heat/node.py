@@ -19,6 +19,7 @@ from std_msgs.msg import Header, Int32
 from std_srvs.srv import Trigger
 
 from rover_common import nodes, topics
+from rover_common.frames import BurgerFrameConfig
 from rover_common.ros import qos
 from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import grid_message_of, header_of
@@ -55,19 +56,21 @@ class HeatNode(CheckedNode):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("heat_node", **kwargs)
+        self._frame_ids = declare_parameters(self, BurgerFrameConfig).frames()
         self._config = config = declare_parameters(self, HeatNodeConfig)
         self._lockstep: HeatLockstep | None = None
-        self._navigator = ActionNavigator(self, self._on_heard)
+        map_frame = self._frame_ids.map
+        self._navigator = ActionNavigator(self, self._on_heard, map_frame=map_frame)
         self._core = make_core(config, self._navigator, config.lockstep)
-        self._sensors = HeatSensors(self, config.lockstep, self._on_heard)
+        self._sensors = HeatSensors(self, config.lockstep, self._frame_ids, self._on_heard)
         self._frames = FrameAssembler(config, self._sensors.poses)
         self._grid: GridMap | None = None  # that the mission has
         self._hazards = NO_HAZARDS  # that were sent
         self._decision: HeatDecision | None = None  # of the tick at hand
         self._hazard_map = self.create_publisher(OccupancyGrid, topics.HAZARD_MAP, qos.LATCHED)
         self._flywheel = self.create_publisher(Int32, topics.FLYWHEEL, qos.CONTROL)
-        self._velocity = VelocityPublisher(self, config.stamped_cmd_vel)
-        self._reports = HeatReports(self, self._core)
+        self._velocity = VelocityPublisher(self, config.stamped_cmd_vel, self._frame_ids)
+        self._reports = HeatReports(self, self._core, self._frame_ids)
         for request in REQUESTS:
             self.create_service(Trigger, f"~/{request.value}", partial(self._on_request, request))
         subscriptions = list(self._sensors.subscriptions)
@@ -161,7 +164,8 @@ class HeatNode(CheckedNode):
 
     def _send_hazards(self, stamp: int, grid: GridMap, decision: HeatDecision) -> None:
         self._hazards = decision.hazards
-        self._hazard_map.publish(grid_message_of(stamp, decision.hazards.drawn_into(grid)))
+        drawn = decision.hazards.drawn_into(grid)
+        self._hazard_map.publish(grid_message_of(stamp, drawn, self._frame_ids))
         if self._lockstep is not None:
             self._lockstep.hazards = stamp
 

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable
 
 from geometry_msgs.msg import Point, Vector3
-from std_msgs.msg import ColorRGBA
+from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from rover_common import frames
+from rover_common.frames import FRAMES, Frames
 from rover_common.ros.conversions import header_of
 from rover_heat.ramp.hazards import Hazards, Strip
 from rover_heat.types import HeatOverlay, HeatSource
@@ -24,47 +24,48 @@ BLOCKED_HEIGHT = 0.06  # [m] that of the ramp
 Places = Iterable[Iterable[float]]
 
 
-def markers_of(stamp: int, overlay: HeatOverlay) -> MarkerArray:
+def markers_of(stamp: int, overlay: HeatOverlay, frames: Frames = FRAMES) -> MarkerArray:
     """First all before are taken away."""
+    header = header_of(stamp, frames.map)
     goal = [] if overlay.goal is None else [(overlay.goal.x, overlay.goal.y)]
     return MarkerArray(
         markers=[
-            Marker(header=header_of(stamp, frames.MAP), action=Marker.DELETEALL),
-            *(_sphere(stamp, source) for source in overlay.sources),
-            *_blocked(stamp, overlay.hazards),
-            _discs(stamp, "frontiers", 0.10, YELLOW, overlay.frontiers),
-            _discs(stamp, "visited", 0.08, GREY, overlay.visited),
-            _discs(stamp, "goal", 0.14, GREEN, goal),
-            _marker(stamp, "trail", Marker.LINE_STRIP, (0.01, 0.0, 0.0), BLUE, overlay.trail),
-            _marker(stamp, "examined", Marker.CUBE_LIST, (0.02, 0.02, FLAT), WHITE, overlay.faces),
+            Marker(header=header, action=Marker.DELETEALL),
+            *(_sphere(header, source) for source in overlay.sources),
+            *_blocked(header, overlay.hazards),
+            _discs(header, "frontiers", 0.10, YELLOW, overlay.frontiers),
+            _discs(header, "visited", 0.08, GREY, overlay.visited),
+            _discs(header, "goal", 0.14, GREEN, goal),
+            _marker(header, "trail", Marker.LINE_STRIP, (0.01, 0.0, 0.0), BLUE, overlay.trail),
+            _marker(header, "examined", Marker.CUBE_LIST, (0.02, 0.02, FLAT), WHITE, overlay.faces),
         ]
     )
 
 
-def _sphere(stamp: int, source: HeatSource) -> Marker:
+def _sphere(header: Header, source: HeatSource) -> Marker:
     """Bigger with evidence."""
     size = LEAST + (MOST - LEAST) * min(1.0, source.observations / SURE)
     color = BLUE if source.delivered else GREEN
-    marker = _marker(stamp, "heat", Marker.SPHERE, (size, size, size), color, ())
+    marker = _marker(header, "heat", Marker.SPHERE, (size, size, size), color, ())
     marker.id, marker.action = source.id, Marker.ADD
     marker.pose.position = Point(x=source.x, y=source.y, z=HEAT_Z)
     return marker
 
 
-def _blocked(stamp: int, hazards: Hazards) -> Iterable[Marker]:
+def _blocked(header: Header, hazards: Hazards) -> Iterable[Marker]:
     for number, strip in enumerate(hazards.strips):
-        yield _strip(stamp, number, strip)
+        yield _strip(header, number, strip)
     for number, disc in enumerate(hazards.discs, len(hazards.strips)):
         size = (2 * disc.radius, 2 * disc.radius, BLOCKED_HEIGHT)
-        marker = _marker(stamp, "blocked", Marker.CYLINDER, size, RED, ())
+        marker = _marker(header, "blocked", Marker.CYLINDER, size, RED, ())
         marker.id, marker.action = number, Marker.ADD
         marker.pose.position = Point(x=disc.x, y=disc.y, z=BLOCKED_HEIGHT / 2)
         yield marker
 
 
-def _strip(stamp: int, number: int, strip: Strip) -> Marker:
+def _strip(header: Header, number: int, strip: Strip) -> Marker:
     size = (strip.length, strip.width, BLOCKED_HEIGHT)
-    marker = _marker(stamp, "blocked", Marker.CUBE, size, RED, ())
+    marker = _marker(header, "blocked", Marker.CUBE, size, RED, ())
     marker.id, marker.action = number, Marker.ADD
     start, half = strip.start, strip.length / 2
     x, y = start.x + half * math.cos(start.yaw), start.y + half * math.sin(start.yaw)
@@ -74,12 +75,12 @@ def _strip(stamp: int, number: int, strip: Strip) -> Marker:
     return marker
 
 
-def _discs(stamp: int, name: str, size: float, color: ColorRGBA, places: Places) -> Marker:
-    return _marker(stamp, name, Marker.SPHERE_LIST, (size, size, FLAT), color, places)
+def _discs(header: Header, name: str, size: float, color: ColorRGBA, places: Places) -> Marker:
+    return _marker(header, name, Marker.SPHERE_LIST, (size, size, FLAT), color, places)
 
 
 def _marker(
-    stamp: int,
+    header: Header,
     name: str,
     kind: int,
     size: tuple[float, float, float],
@@ -89,7 +90,7 @@ def _marker(
     """Without places it takes away what was shown under its name."""
     at = [Point(x=float(x), y=float(y), z=FLAT) for x, y in places]
     action = Marker.ADD if at else Marker.DELETE
-    marker = Marker(header=header_of(stamp, frames.MAP), ns=name, type=kind, action=action)
+    marker = Marker(header=header, ns=name, type=kind, action=action)
     marker.pose.orientation.w = 1.0
     marker.scale = Vector3(x=float(size[0]), y=float(size[1]), z=float(size[2]))
     marker.color = color

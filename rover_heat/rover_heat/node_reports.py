@@ -8,6 +8,7 @@ from rover_interfaces.msg import HeatSourceArray, HeatState
 from visualization_msgs.msg import MarkerArray
 
 from rover_common import topics
+from rover_common.frames import Frames
 from rover_common.ros import qos
 from rover_common.types import Run
 from rover_decision.mission_goal import Outcome
@@ -29,8 +30,9 @@ REASONS = {
 class HeatReports:
     """State on every change and twice a second, sources on change, markers while watched."""
 
-    def __init__(self, node: Node, core: HeatCore) -> None:
+    def __init__(self, node: Node, core: HeatCore, frames: Frames) -> None:
         self._node = node
+        self._frames = frames
         self._core = core
         self._state = node.create_publisher(HeatState, topics.HEAT_STATE, qos.LATCHED)
         self._sources = node.create_publisher(HeatSourceArray, topics.HEAT_SOURCES, qos.LATCHED)
@@ -53,14 +55,15 @@ class HeatReports:
         if last is None or last[1] != state:
             self._node.get_logger().info(f"{decision.state.name}: {decision.reason}")
         self._last = (stamp, state, decision.reason)
-        report = heat_state_of(stamp, run, decision)
+        report = heat_state_of(stamp, run, decision, self._frames)
         self._state.publish(report)
         self.action.on_report(report)
         if self._markers.get_subscription_count() > 0:
-            self._markers.publish(markers_of(stamp, self._core.mission.overlay()))
+            overlay = self._core.mission.overlay()
+            self._markers.publish(markers_of(stamp, overlay, self._frames))
 
     def _tell_sources(self, stamp: int, run: Run) -> None:
         told = run.number, self._core.mission.overlay().sources
         if told != self._told:
             self._told = told
-            self._sources.publish(heat_sources_of(stamp, run, told[1]))
+            self._sources.publish(heat_sources_of(stamp, run, told[1], self._frames))

@@ -15,7 +15,8 @@ from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Float32MultiArray, String
 from tf2_msgs.msg import TFMessage
 
-from rover_common import frames, nodes, topics
+from rover_common import nodes, topics
+from rover_common.frames import Frames
 from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
@@ -42,8 +43,11 @@ PAUSES = {
 class HeatSensors:
     """Callbacks only store; `heard` is called after each of them."""
 
-    def __init__(self, node: CheckedNode, lockstep: bool, heard: Callable[[], None]) -> None:
+    def __init__(
+        self, node: CheckedNode, lockstep: bool, frames: Frames, heard: Callable[[], None]
+    ) -> None:
         self._node = node
+        self._frames = frames
         self._heard = heard
         self.collector = BatchCollector()
         self.poses = TransformBuffer()
@@ -62,7 +66,7 @@ class HeatSensors:
         ]
         if lockstep:
             listened.append((SensorTick, topics.SENSOR_TICK, self._on_tick, qos.SENSOR))
-        node.expect_frames({topics.MAP: frames.MAP})
+        node.expect_frames({topics.MAP: frames.map})
         self.subscriptions = [
             node.create_subscription(kind, topic, partial(self._store, topic, callback), profile)
             for kind, topic, callback, profile in listened
@@ -110,11 +114,12 @@ class HeatSensors:
         self.grid, self.grid_stamp = grid_of(message), stamp_of(message.header.stamp)
 
     def _on_transform(self, link: TransformStamped) -> None:
-        stamp, child = stamp_of(link.header.stamp), link.child_frame_id
-        if (link.header.frame_id, child) == (frames.MAP, frames.ODOM):
+        frames, stamp = self._frames, stamp_of(link.header.stamp)
+        parent, child = link.header.frame_id, link.child_frame_id
+        if (parent, child) == (frames.map, frames.odom):
             self.poses.add_correction(stamp, pose_of_transform(link))
-        elif link.header.frame_id == frames.ODOM and child in frames.BODIES:
-            self.poses.add_odometry(stamp, pose_of_transform(link))
+        elif parent == frames.odom and child in (frames.footprint, frames.base):
+            self.poses.add_odometry(stamp, pose_of_transform(link))  # robots place either in odom
 
     def _on_tick(self, message: SensorTick) -> None:
         self.collector.add_tick(sensors.tick_of(message))

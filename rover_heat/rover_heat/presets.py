@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import fields
 from pathlib import Path
 
-from rover_common.config import problem_of
+from rover_common.config import problem_of, widened
 from rover_common.errors import RoverError
+from rover_common.frames import BurgerFrameConfig
 from rover_common.input_monitor import InputLimits
 from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_heat.config import HeatConfig
@@ -26,12 +27,22 @@ def load_preset(path: Path) -> HeatConfig:
         raise PresetError(str(error)) from error
     except (KeyError, TypeError, ValueError) as error:
         raise PresetError(f"{path}: no section '{SECTION}' with '{PARAMETERS}'") from error
-    known = {field.name: field for kind in (HeatConfig, InputLimits) for field in fields(kind)}
+    # A node's parameters besides those of the mission: frames and limits of its inputs.
+    known = {
+        field.name: field
+        for kind in (HeatConfig, InputLimits, BurgerFrameConfig)
+        for field in fields(kind)
+    }
     for name, value in values.items():
         if name not in known:
             raise PresetError(f"{path}: there is no parameter '{name}'")
         problem = problem_of(value, known[name].default, known[name].metadata["parameter"])
         if problem:
             raise PresetError(f"{path}: {name}: {problem}")
-    own = {field.name for field in fields(HeatConfig)}
-    return HeatConfig(**{name: value for name, value in values.items() if name in own})
+    return HeatConfig(
+        **{
+            field.name: widened(values[field.name], field.default)
+            for field in fields(HeatConfig)
+            if field.name in values
+        }
+    )

@@ -11,7 +11,7 @@ from nav_msgs.msg import Path
 from numpy.typing import NDArray
 from rover_interfaces.msg import NavigationTick
 
-from rover_common import frames
+from rover_common.frames import FRAMES, Frames
 from rover_common.geometry import Pose
 from rover_common.ros.check_values import FARTHEST, check_within
 from rover_common.ros.conversions import NANOSECONDS, header_of, time_of
@@ -31,7 +31,11 @@ def check_feedback(feedback: NavigateToPose.Feedback) -> None:
 
 
 def feedback_of(
-    output: NavigatorOutput, goal: EmbeddedGoal, begun: int, speed: float
+    output: NavigatorOutput,
+    goal: EmbeddedGoal,
+    begun: int,
+    speed: float,
+    frames: Frames = FRAMES,
 ) -> NavigateToPose.Feedback:
     """begun: [ns] when the goal was accepted; speed: [m/s] that the time left is estimated by.
 
@@ -40,7 +44,7 @@ def feedback_of(
     left = goal.distance_left if math.isfinite(goal.distance_left) else 0.0
     pose = output.pose or Pose(0.0, 0.0, 0.0)
     return NavigateToPose.Feedback(
-        current_pose=pose_message_of(output.stamp, frames.MAP, pose),
+        current_pose=pose_message_of(output.stamp, frames.map, pose),
         navigation_time=_duration(max(0, output.stamp - begun)),
         estimated_time_remaining=_duration(round(left / speed * NANOSECONDS)),
         number_of_recoveries=goal.recoveries,
@@ -54,22 +58,24 @@ def result_of(reason: str, failed: bool) -> NavigateToPose.Result:
     return result(error_code=UNKNOWN_ERROR if failed else result.NONE, error_msg=reason)
 
 
-def path_of(stamp: int, points: NDArray[np.float64]) -> Path:
+def path_of(stamp: int, points: NDArray[np.float64], frames: Frames = FRAMES) -> Path:
     """Points (n, 2) [m] of the map; each pose faces the next one."""
     steps = np.diff(points, axis=0, append=points[-1:])
     yaws = np.arctan2(steps[:, 1], steps[:, 0])
     yaws[-1:] = yaws[-2:-1] if len(yaws) > 1 else 0.0
     poses = [
-        pose_message_of(stamp, frames.MAP, Pose(float(x), float(y), float(yaw)))
+        pose_message_of(stamp, frames.map, Pose(float(x), float(y), float(yaw)))
         for (x, y), yaw in zip(points, yaws, strict=True)
     ]
-    return Path(header=header_of(stamp, frames.MAP), poses=poses)
+    return Path(header=header_of(stamp, frames.map), poses=poses)
 
 
-def tick_message_of(output: NavigatorOutput, hazards: int) -> NavigationTick:
+def tick_message_of(
+    output: NavigatorOutput, hazards: int, frames: Frames = FRAMES
+) -> NavigationTick:
     """hazards: stamp of the newest hazard map that was taken."""
     return NavigationTick(
-        header=header_of(output.stamp, frames.MAP),
+        header=header_of(output.stamp, frames.map),
         transform=output.map_to_odom is not None,
         map=output.map is not None,
         velocity=output.twist is not None,

@@ -19,8 +19,9 @@ from rover_interfaces.msg import NavigationTick, SensorTick
 from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
 
-from rover_common import frames, nodes, topics
+from rover_common import nodes, topics
 from rover_common.burger import BURGER
+from rover_common.frames import BurgerFrameConfig
 from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
@@ -50,6 +51,7 @@ class NavigatorNode(CheckedNode):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("navigator_node", **kwargs)
+        self._frames = declare_parameters(self, BurgerFrameConfig).frames()
         self._config = config = declare_parameters(self, NavigatorNodeConfig)
         self._navigator = EmbeddedNavigator(BURGER, BURGER_SCALE, config, config.seed)
         self._collector = BatchCollector()
@@ -63,8 +65,9 @@ class NavigatorNode(CheckedNode):
         self._plan = self.create_publisher(Path, topics.PLAN, qos.VIEW)
         self._tf = self.create_publisher(TFMessage, "/tf", qos.TF)
         self._tick = self.create_publisher(NavigationTick, topics.NAVIGATION_TICK, qos.SENSOR)
-        self._velocity = VelocityPublisher(self, config.stamped_cmd_vel)
-        self._server = NavigateServer(self, self._navigator, config.goal_tolerance)
+        self._velocity = VelocityPublisher(self, config.stamped_cmd_vel, self._frames)
+        tolerance = config.goal_tolerance
+        self._server = NavigateServer(self, self._navigator, tolerance, self._frames)
         subscriptions = self._subscribe()
         scan, imu, odometry = subscriptions[:3]
         limits = declare_parameters(self, InputLimits)
@@ -89,7 +92,7 @@ class NavigatorNode(CheckedNode):
 
     def _subscribe(self) -> list[Any]:
         subscribe = self.create_subscription
-        self.expect_frames({topics.HAZARD_MAP: frames.MAP})
+        self.expect_frames({topics.HAZARD_MAP: self._frames.map})
         subscriptions = [
             subscribe(LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
             subscribe(Imu, topics.IMU, self._on_imu, qos.IMU),
@@ -137,7 +140,7 @@ class NavigatorNode(CheckedNode):
     def _on_transform(self, link: TransformStamped) -> None:
         """Whether the robot sends its odometry's transform; what this node sends comes here too."""
         if self._config.odometry_transform == "auto" and not self._sends_odometry:
-            self._robot_sends_odometry |= link.header.frame_id == frames.ODOM
+            self._robot_sends_odometry |= link.header.frame_id == self._frames.odom
 
     def _on_timer(self) -> None:
         self._step(self._collector.take(self.get_clock().now().nanoseconds))
@@ -150,7 +153,7 @@ class NavigatorNode(CheckedNode):
         self._last = output = self._navigator.step(batch)
         self._send_transforms(batch.odometry, output)
         if output.map is not None:
-            self._map.publish(grid_message_of(output.stamp, output.map))
+            self._map.publish(grid_message_of(output.stamp, output.map, self._frames))
         if output.twist is not None:
             self._velocity.publish(output.stamp, output.twist)
         elif self._drove and not self._config.lockstep:  # there the mission answers without a goal
@@ -167,17 +170,17 @@ class NavigatorNode(CheckedNode):
     def _send_transforms(
         self, odometry: tuple[WheelOdometry, ...], output: NavigatorOutput
     ) -> None:
-        links = []
+        links, frames = [], self._frames
         if odometry and self._first_odometry is None:
             self._first_odometry = odometry[0].stamp
         if self._sends_odometry:
             links = [
-                transform_message_of(each.stamp, frames.ODOM, frames.BASE_FOOTPRINT, each.pose)
+                transform_message_of(each.stamp, frames.odom, frames.footprint, each.pose)
                 for each in odometry
             ]
         if output.map_to_odom is not None:
             correction = output.map_to_odom
-            links.append(transform_message_of(output.stamp, frames.MAP, frames.ODOM, correction))
+            links.append(transform_message_of(output.stamp, frames.map, frames.odom, correction))
         if links:
             self._tf.publish(TFMessage(transforms=links))
 
@@ -196,11 +199,11 @@ class NavigatorNode(CheckedNode):
         if self._plan.get_subscription_count() == 0 or np.array_equal(output.path, self._path):
             return
         self._path = output.path
-        self._plan.publish(path_of(output.stamp, output.path))
+        self._plan.publish(path_of(output.stamp, output.path, self._frames))
 
     def _answer(self, output: NavigatorOutput) -> None:
         if self._config.lockstep:
-            self._tick.publish(tick_message_of(output, self._hazards))
+            self._tick.publish(tick_message_of(output, self._hazards, self._frames))
 
 
 def main() -> None:

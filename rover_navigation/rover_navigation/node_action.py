@@ -10,8 +10,9 @@ from rclpy.action import CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node
 
-from rover_common import frames, topics
+from rover_common import topics
 from rover_common.burger import BURGER
+from rover_common.frames import Frames
 from rover_common.ros.actions import DeferringActionServer
 from rover_common.ros.message_checks import check_pose
 from rover_common.ros.message_errors import FrameError, MessageError, NotFiniteError
@@ -34,8 +35,11 @@ class _Run:
 class NavigateServer:
     """One goal at a time: a newer one takes its place, and the one before it is aborted."""
 
-    def __init__(self, node: Node, navigator: EmbeddedNavigator, tolerance: float) -> None:
+    def __init__(
+        self, node: Node, navigator: EmbeddedNavigator, tolerance: float, frames: Frames
+    ) -> None:
         self._node = node
+        self._frames = frames
         self._navigator = navigator
         self._tolerance = tolerance
         self._run: _Run | None = None
@@ -53,7 +57,8 @@ class NavigateServer:
         self.settle()
         if self._run is not None:
             run = self._run
-            feedback = feedback_of(output, run.goal, run.begun, BURGER.cruise_speed)
+            speed = BURGER.cruise_speed
+            feedback = feedback_of(output, run.goal, run.begun, speed, self._frames)
             run.handle.publish_feedback(feedback)
 
     def settle(self) -> None:
@@ -81,12 +86,12 @@ class NavigateServer:
         self._server.destroy()
 
     def _on_request(self, goal: NavigateToPose.Goal) -> GoalResponse:
-        frame = goal.pose.header.frame_id
+        frame, wanted = goal.pose.header.frame_id, self._frames.map
         try:
             with suppress(NotFiniteError):  # that ends it with a result
                 check_pose(goal.pose)
-            if frame not in ("", frames.MAP):
-                raise FrameError(f"it is in {frame}, not in {frames.MAP}")
+            if frame not in ("", wanted):
+                raise FrameError(f"it is in {frame}, not in {wanted}")
         except MessageError as error:
             self._node.get_logger().warning(f"goal rejected: {error}")
             return GoalResponse.REJECT

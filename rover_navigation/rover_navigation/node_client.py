@@ -15,7 +15,8 @@ from rclpy.qos import qos_profile_action_status_default
 from rclpy.task import Future
 from unique_identifier_msgs.msg import UUID
 
-from rover_common import frames, topics
+from rover_common import topics
+from rover_common.frames import MAP
 from rover_common.geometry import Pose
 from rover_common.ros.checked_node import CheckedNode, Entrance
 from rover_common.ros.conversions import stamp_of
@@ -59,6 +60,7 @@ class ActionNavigator:
 
     node: CheckedNode
     on_heard: Callable[[], None] = lambda: None  # called when the server has said something
+    map_frame: str = MAP  # of the goals
     is_ready: bool = False
     _sent: _Sent | None = None
     _cancels: dict[bytes, _Request] = field(default_factory=dict)
@@ -105,7 +107,7 @@ class ActionNavigator:
             self.node, FEEDBACK, lambda said: self._on_feedback(sent, said), check_feedback
         )
         future = self._client.send_goal_async(
-            NavigateToPose.Goal(pose=pose_message_of(self._now, frames.MAP, pose)),
+            NavigateToPose.Goal(pose=pose_message_of(self._now, self.map_frame, pose)),
             lambda message: heard(message.feedback),
             goal_id,
         )

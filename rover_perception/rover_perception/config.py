@@ -47,6 +47,7 @@ class PerceptionConfig:
         "[s] of frame time between two vision images, and between two bird's-eye images",
         minimum=0.0,
         maximum=60.0,
+        settable=True,
     )
     recipe: str = parameter(
         "exact",

@@ -21,9 +21,10 @@ from rclpy.publisher import Publisher
 from rover_interfaces.msg import PolarArray, RockTrackArray, RoverStatus
 from sensor_msgs.msg import Image, LaserScan
 
-from rover_common import frames, nodes, topics
+from rover_common import nodes, topics
+from rover_common.frames import FrameConfig
 from rover_common.input_monitor import Input, InputLimits, InputMonitor
-from rover_common.ros import conversions, qos
+from rover_common.ros import conversions, qos, scan_conversions
 from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.diagnostics import NodeDiagnostics, input_of
 from rover_common.ros.parameters import declare_parameters
@@ -52,13 +53,15 @@ class PerceptionNode(CheckedNode):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("perception_node", **kwargs)
         cv2.setNumThreads(1)  # the images are small, and the other nodes need the cores
-        self._config = declare_parameters(self, PerceptionConfig)
+        self._frames = declare_parameters(self, FrameConfig).frames()
+        self._config = declare_parameters(self, PerceptionConfig, self._on_config)
         self._core = make_perception(self._config)
         kind = f"perception {self._config.recipe}"
         self._state = NodeState(self, self._config.state_dir, kind, VERSION)
         self._newest: tuple[Run, int] | None = None  # run and stamp [ns] of the last frame
         self._join = ExactTimeSynchronizer((topics.IMAGE, topics.ODOMETRY, topics.STATUS))
         self._stamp: int | None = None
+        self._optical = ""  # frame of the images
         self._map_stamp: int | None = None
         self._maps_due = False  # those that include the last frame
         self._navigation_map_missed = False  # nobody listened when it was due
@@ -71,7 +74,7 @@ class PerceptionNode(CheckedNode):
 
     def _make_endpoints(self) -> None:
         publish = self.create_publisher
-        self.expect_frames({topics.ODOMETRY: frames.ODOM})
+        self.expect_frames({topics.ODOMETRY: self._frames.odom})
         self._nav = publish(PolarArray, topics.NAV_POLAR, qos.FRAME)
         self._rock_polar = publish(PolarArray, topics.ROCK_POLAR, qos.FRAME)
         self._scan = publish(LaserScan, topics.FREE_SCAN, qos.FRAME)
@@ -100,6 +103,9 @@ class PerceptionNode(CheckedNode):
         self._diagnostics = NodeDiagnostics(self, peers, self._inputs)
         self._diagnostics.join(nodes.ROVER, limits.input_error_age)
 
+    def _on_config(self, config: PerceptionConfig) -> None:
+        self._config = config
+
     def _on_image(self, message: Image) -> None:
         self._on_part(topics.IMAGE, message)
 
@@ -119,6 +125,7 @@ class PerceptionNode(CheckedNode):
         if parts is None:
             return
         self._publish_due_maps()
+        self._optical = parts[topics.IMAGE].header.frame_id
         try:
             frame = conversions.camera_frame_of(
                 parts[topics.IMAGE], parts[topics.ODOMETRY], parts[topics.STATUS]
@@ -156,12 +163,12 @@ class PerceptionNode(CheckedNode):
 
     def _publish(self, result: PerceptionResult) -> None:
         """What the decision node waits for goes first."""
-        stamp, run = result.stamp, result.run
-        rocks = conversions.rocks_message_of(stamp, run, result.rocks, result.map_stamp)
+        stamp, run, frames = result.stamp, result.run, self._frames
+        rocks = conversions.rocks_message_of(stamp, run, result.rocks, result.map_stamp, frames)
         self._rock_list.publish(rocks)
-        self._nav.publish(conversions.polar_message_of(stamp, run, result.nav))
-        self._rock_polar.publish(conversions.polar_message_of(stamp, run, result.rock))
-        self._scan.publish(conversions.scan_message_of(stamp, result.scan))
+        self._nav.publish(scan_conversions.polar_message_of(stamp, run, result.nav, frames))
+        self._rock_polar.publish(scan_conversions.polar_message_of(stamp, run, result.rock, frames))
+        self._scan.publish(scan_conversions.scan_message_of(stamp, result.scan, frames))
         self._stamp = stamp
         self._maps_due = result.map_stamp == stamp
         self._publish_pictures(stamp)
@@ -179,21 +186,24 @@ class PerceptionNode(CheckedNode):
 
     def _publish_map(self, stamp: int) -> None:
         self._map_stamp = stamp
-        self._map.publish(conversions.grid_message_of(stamp, self._core.world_map()))
+        grid = self._core.world_map()
+        self._map.publish(conversions.grid_message_of(stamp, grid, self._frames))
 
     def _publish_navigation_map(self, stamp: int) -> None:
         """Only while subscribed: its message is sixteen times as large as the world map's."""
         self._navigation_map_missed = not self._navigation_map.get_subscription_count()
         if not self._navigation_map_missed:
-            grid = conversions.grid_message_of(stamp, self._core.navigation_map())
-            self._navigation_map.publish(grid)
+            grid = self._core.navigation_map()
+            message = conversions.grid_message_of(stamp, grid, self._frames)
+            self._navigation_map.publish(message)
 
     def _publish_pictures(self, stamp: int) -> None:
         """Those that somebody has subscribed, at most one per vision period each."""
         if self._picture_due(self._vision, stamp):
-            self._publish_picture(self._vision, frames.CAMERA_OPTICAL, self._core.vision_image())
+            self._publish_picture(self._vision, self._optical, self._core.vision_image())
         if self._picture_due(self._birdseye, stamp):
-            self._publish_picture(self._birdseye, frames.BASE, self._core.birdseye_image())
+            base = self._frames.base
+            self._publish_picture(self._birdseye, base, self._core.birdseye_image())
 
     def _publish_picture(
         self, publisher: Publisher, frame: str, picture: NDArray[np.uint8] | None

@@ -9,9 +9,10 @@ from typing import Any
 
 from rover_common.geometry import Pose
 from rover_common.vehicle import ROVER
-from rover_simulator.sensors.jpeg import encode_jpeg, first_row_to_encode
+from rover_simulator.sensors.camera import Camera
 from rover_simulator.sensors.renderer import Renderer
 from rover_simulator.vehicle.arm import Arm
+from rover_simulator.vehicle.contacts import Contacts
 from rover_simulator.vehicle.dead_man import DeadMan
 from rover_simulator.vehicle.fixed_turn import FixedTurn
 from rover_simulator.vehicle.ground import Ground, ground_under
@@ -28,8 +29,6 @@ INSETS = ("inset_image1", "inset_image2", "inset_image3")  # the original shows 
 
 # Takes the time [s], the camera's JPEG file and the files of the insets by name.
 ShowInsets = Callable[[float, bytes, Mapping[str, bytes]], None]
-CONTACT_HEIGHT = 0.1  # [m] of ground under the rover that counts as touching a wall
-CONTACT_SECONDS = 0.5  # [s] after which another touch is another contact
 
 
 class Simulation:
@@ -38,35 +37,44 @@ class Simulation:
     def __init__(
         self, world: World, terrain_seed: int, frame_steps: int, dead_man: float = math.inf
     ) -> None:
-        """frame_steps: physics steps of 0.02 s in one rendered frame; dead_man: [s] of simulated
-        time without a command until a rover that drives brakes; as the original: never.
-        """
+        """frame_steps: physics steps of 0.02 s a rendered frame; dead_man: [s] as in `DeadMan`."""
+        self._world = world
+        self._dead_man_age = dead_man
         self._terrain = terrain_of(world, terrain_seed)
-        self._renderer = Renderer(world, self._terrain)
-        self._boulders = world.boulders
-        self._vehicle = Vehicle(world.start)
-        self._ground = self._ground_under()
-        self._arm = Arm([(float(x), float(y)) for x, y in world.samples])
-        self._fixed_turn = FixedTurn()
-        self._controls = Controls()
-        self._dead_man = DeadMan(dead_man)
         self._frame_steps = frame_steps
-        self.time = START_TIME
-        self.contacts = 0
-        self.distance = 0.0  # [m] driven
-        self._untouched = math.inf  # [s] since the last touch
-        self._image = b""
-        self._captured_at: Pose | None = None  # None: the next image differs in any case
         self._first_row: Callable[[Pose], int] = lambda _: 0
         self._show_insets: ShowInsets | None = None
-        self._next_image = self._capture()
+        self.reset()
+
+    def reset(self) -> None:
+        """Everything is as it was at the beginning, the time too."""
+        self._camera = Camera(Renderer(self._world, self._terrain), self._first_row)
+        self._arm = Arm([(float(x), float(y)) for x, y in self._world.samples])
+        self._fixed_turn = FixedTurn()
+        self._controls = Controls()
+        self._dead_man = DeadMan(self._dead_man_age)
+        self.time = START_TIME
+        self._contacts = Contacts()
+        self.distance = 0.0  # [m] driven
+        self._put(Vehicle(self._world.start))
+
+    def place(self, pose: Pose) -> str:
+        """Put the rover somewhere, standing; a frozen one is free then.
+
+        Why it cannot be, and nothing is changed then; empty when it is done.
+        """
+        if not self._world.is_navigable(pose.x, pose.y):
+            return f"({pose.x:.2f}, {pose.y:.2f}) m is not navigable"
+        if self._arm.picking_up and not self._arm.frozen:
+            return "the arm moves"
+        self._arm = Arm(self._arm.samples)
+        self._fixed_turn, self._controls = FixedTurn(), Controls()
+        self._put(Vehicle(pose))
+        return ""
 
     def crop_images(self, first_row: Callable[[Pose], int]) -> None:
-        """Render only the rows of an image from `first_row(pose)` on, for a reader of these alone.
-
-        They decode to the same pixels as those of the whole image; rows far above stay black.
-        """
-        self._first_row = first_row
+        """Render only the rows of an image from `first_row(pose)` on, for their reader."""
+        self._first_row = self._camera.first_row = first_row
 
     def show_insets(self, show: ShowInsets) -> None:
         """Hand over the insets of each command, and tell the server that they are shown."""
@@ -94,16 +102,13 @@ class Simulation:
         samples = [(float(x), float(y)) for x, y in memory["samples"]]
         vehicle = Vehicle(pose)
         vehicle.roll_on(float(memory["speed"]), controls)
-        self.contacts, self.distance = int(memory["contacts"]), float(memory["distance"])
-        self.time = float(memory["time"]) + RESUME_LEAP
-        self._vehicle, self._controls = vehicle, controls
+        self._contacts, self.distance = Contacts(int(memory["contacts"])), float(memory["distance"])
+        self.time, self._controls = float(memory["time"]) + RESUME_LEAP, controls
         for place in self._arm.samples:
             if place not in samples:
-                self._renderer.hide_sample(*place)
+                self._camera.hide_sample(*place)
         self._arm = Arm(samples)
-        self._ground = self._ground_under()
-        self._captured_at = None
-        self._next_image = self._capture()
+        self._put(vehicle)
 
     @property
     def pose(self) -> Pose:
@@ -112,6 +117,11 @@ class Simulation:
     @property
     def samples_left(self) -> int:
         return len(self._arm.samples)
+
+    @property
+    def contacts(self) -> int:
+        """How often the rover touched a wall or a boulder."""
+        return self._contacts.count
 
     @property
     def dead_man_stops(self) -> int:
@@ -131,11 +141,10 @@ class Simulation:
         for _ in range(self._frame_steps):
             self._step()
         self._arm.advance(self._frame_steps * STEP)
-        if self._arm.lifted is not None and self._renderer.hide_sample(*self._arm.lifted):
-            self._captured_at = None
+        if self._arm.lifted is not None:
+            self._camera.hide_sample(*self._arm.lifted)
         self.time += self._frame_steps * STEP
-        self._image = self._next_image
-        self._next_image = self._capture()
+        self._camera.advance(self.pose, self._ground.height)
 
     def telemetry(self) -> dict[str, str]:
         """Of this frame, with the image of the one before."""
@@ -150,7 +159,7 @@ class Simulation:
             picking_up=self._arm.picking_up,
             sample_count=len(self._arm.samples),
             samples=self._arm.samples,
-            image=self._image or self._next_image,
+            image=self._camera.image,
             sim_time=self.time,
             shows_insets=self._show_insets is not None,
         )
@@ -193,7 +202,7 @@ class Simulation:
         self._hold(Controls(steering, throttle, parse_number(data.get("brake", "0"))))
         insets = {key: parse_base64(data.get(key, "")) for key in INSETS}
         if self._show_insets is not None:
-            self._show_insets(self.time, self._image or self._next_image, insets)
+            self._show_insets(self.time, self._camera.image, insets)
 
     def _pick_up(self, _: Mapping[str, Any]) -> None:
         if not self._held:
@@ -222,29 +231,20 @@ class Simulation:
             return
         before = self._vehicle.pose
         self._vehicle.step(self._controls, self._ground)
-        depth = boulders.overlap(self._vehicle.pose, self._boulders)
-        blocked = depth > 0.0 and depth > boulders.overlap(before, self._boulders)
+        depth = boulders.overlap(self._vehicle.pose, self._world.boulders)
+        blocked = depth > 0.0 and depth > boulders.overlap(before, self._world.boulders)
         if blocked:
             self._vehicle.bump(before)
         after = self._vehicle.pose
         self.distance += math.hypot(after.x - before.x, after.y - before.y)
         self._ground = self._ground_under()
-        touching = blocked or self._ground.height > CONTACT_HEIGHT
-        if touching:
-            self.contacts += self._untouched > CONTACT_SECONDS
-            self._untouched = 0.0
-        else:
-            self._untouched += STEP
+        self._contacts.note(blocked, self._ground.height, STEP)
 
     def _ground_under(self) -> Ground:
         return ground_under(self._vehicle.pose, self._terrain.surface_at)
 
-    def _capture(self) -> bytes:
-        """What the camera sees now; a body that is held sees the same as a frame ago."""
-        pose = self._vehicle.pose
-        if pose == self._captured_at:
-            return self._next_image
-        self._captured_at = pose
-        first_row = first_row_to_encode(self._first_row(pose))
-        rendering = self._renderer.render(pose, self._ground.height, first_row)
-        return encode_jpeg(rendering.image)
+    def _put(self, vehicle: Vehicle) -> None:
+        """Another vehicle in this one's place."""
+        self._vehicle = vehicle
+        self._ground = self._ground_under()
+        self._camera.capture(vehicle.pose, self._ground.height)

@@ -12,11 +12,12 @@ from readme_tables import ROOT
 from rover_bridge.node import BridgeNode
 from rover_bridge.node_insets import InsetNode
 from rover_common.errors import RoverError
+from rover_common.frames import MAP
 from rover_common.ros.runner import start_errors
 
 
 def test_the_topics_are_those_of_the_readme(ros):
-    node = InsetNode(ros.add(BridgeNode, port=0))
+    node = InsetNode(ros.add(BridgeNode, port=0), MAP)
     try:
         found = endpoints(node.subscriptions)
     finally:
@@ -29,7 +30,7 @@ def test_the_node_has_the_bridges_namespace_and_topics(domain_id):
     context = Context()
     rclpy.init(context=context, args=arguments, domain_id=domain_id)
     bridge = BridgeNode(context=context, parameter_overrides=[Parameter("port", value=0)])
-    node = InsetNode(bridge)
+    node = InsetNode(bridge, MAP)
     try:
         assert node.get_fully_qualified_name() == "/one/two_insets"
         assert {s.topic_name for s in node.subscriptions} >= {"/one/three", "/one/rocks"}

@@ -135,13 +135,13 @@ def test_a_signal_begins_a_sequence_and_its_end_is_reported(ros, watcher):
     flywheel = watcher.create_publisher(Int32, topics.FLYWHEEL, qos.CONTROL)
     node = ros.add(BurgerNode, start_paused=True, **FAST)
     assert ros.spin_until(
-        lambda: flywheel.get_subscription_count() and node._launched.get_subscription_count()
+        lambda: flywheel.get_subscription_count() and node._topics.launched.get_subscription_count()
     )
     flywheel.publish(Int32(data=0))
     assert not ros.spin_until(lambda: node._launch, timeout=0.3)
     flywheel.publish(Int32(data=50))
     assert ros.spin_until(lambda: node._launch)
-    node._pause(False, Trigger.Response())
+    node.pause(False)
     assert ros.spin_until(lambda: reports)
     assert [report.data for report in reports] == ["done"]
     (launch,) = node.simulation.truth.launches

@@ -21,7 +21,7 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 
 from rover_common import frames, topics
-from rover_common.ros import conversions, qos
+from rover_common.ros import conversions, qos, scan_conversions
 from rover_common.types import FIRST_RUN, Command, Run
 from rover_decision.node import DecisionNode
 from rover_decision.types import Frame
@@ -84,9 +84,9 @@ class NodeBench:
         messages = (
             conversions.odometry_of(stamp, vehicle.pose, vehicle.speed),
             status,
-            conversions.polar_message_of(stamp, run, shown.nav),
-            conversions.polar_message_of(stamp, run, shown.rock),
-            conversions.scan_message_of(stamp, shown.scan),
+            scan_conversions.polar_message_of(stamp, run, shown.nav),
+            scan_conversions.polar_message_of(stamp, run, shown.rock),
+            scan_conversions.scan_message_of(stamp, shown.scan),
             conversions.rocks_message_of(stamp, run, shown.rocks, map_stamp),
         )
         for publisher, message in zip(self._parts.values(), messages, strict=True):

@@ -35,7 +35,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from rover_common import frames, types
 from rover_common import sensor_types as sensed
 from rover_common.geometry import Pose
-from rover_common.ros import conversions, transforms
+from rover_common.ros import conversions, scan_conversions, transforms
 from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.sensor_checks import JPEG_BEGIN
 
@@ -54,7 +54,7 @@ ROW = st.integers(0, 10**6)
 
 
 def _scan(frame: str) -> LaserScan:
-    scan = conversions.scan_message_of(
+    scan = scan_conversions.scan_message_of(
         STAMP, types.FreeScan(-1.0, 0.1, 0.2, 6.0, np.linspace(0.5, 5.0, 21, dtype=np.float32))
     )
     scan.header.frame_id, scan.time_increment = frame, 0.001
@@ -133,7 +133,7 @@ GOOD: Mapping[type, Any] = {
     OccupancyGrid: conversions.grid_message_of(STAMP, types.GridMap(0.5, 95.0, 80.0, _cells)),
     Odometry: conversions.odometry_of(STAMP, HERE, 1.0),
     Path: _path(),
-    PolarArray: conversions.polar_message_of(STAMP, types.FIRST_RUN, _polar),
+    PolarArray: scan_conversions.polar_message_of(STAMP, types.FIRST_RUN, _polar),
     PoseStamped: transforms.pose_message_of(STAMP, frames.MAP, HERE),
     RockTrackArray: _rocks(),
     RoverStatus: _status(),

@@ -26,7 +26,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from rover_bridge.codec import encode_drive
-from rover_common.ros import conversions, transforms
+from rover_common.ros import conversions, scan_conversions, transforms
 from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.message_checks import CHECKS, parts_of
 from rover_common.ros.message_errors import MessageError
@@ -46,13 +46,13 @@ READERS: Mapping[type, tuple[Callable[[Any], Any], ...]] = {
     HeatState: (heat_mission_of, shown.report_of),
     Image: (conversions.image_of, shown.picture_of),
     Imu: (sensors.imu_of,),
-    LaserScan: (sensors.laser_scan_of, conversions.scan_of),
+    LaserScan: (sensors.laser_scan_of, scan_conversions.scan_of),
     MarkerArray: (shown.markers_of, heat_markers_of),
     MissionState: (shown.mission_of, shown.report_of),
     OccupancyGrid: (conversions.grid_of, shown.map_of),
     Odometry: (conversions.pose_of, sensors.wheel_odometry_of),
     Path: (shown.plan_of,),
-    PolarArray: (conversions.polar_of,),
+    PolarArray: (scan_conversions.polar_of,),
     PoseStamped: (transforms.pose_of_message,),
     RockTrackArray: (conversions.rocks_of,),
     RoverStatus: (conversions.run_of,),

@@ -80,9 +80,10 @@ def test_every_subscription_of_the_recorder_has_an_entrance(ros, tmp_path):
 def test_no_node_of_the_programs_is_a_plain_one():
     packages = [path.parent for path in ROOT.glob("*/package.xml")]
     for path in (path for each in packages for path in (each / each.name).rglob("*.py")):
-        if path.name == "checked_node.py":
+        text = path.read_text()
+        if path.name == "checked_node.py" or "from launch_ros.actions import Node" in text:
             continue
-        for each in ast.walk(ast.parse(path.read_text())):
+        for each in ast.walk(ast.parse(text)):
             bases = each.bases if isinstance(each, ast.ClassDef) else []
             names = [each.func] if isinstance(each, ast.Call) else bases
             assert not [n for n in names if isinstance(n, ast.Name) and n.id == "Node"], path

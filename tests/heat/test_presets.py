@@ -39,7 +39,7 @@ def test_the_page_looks_ahead_to_both_sides():
     ("line", "problem"),
     [
         ("payloads: 4.5", "int"),
-        ("stand_off: 1", "float"),
+        ("stand_off: near", "float"),
         ("stand_off: 5.0", "within"),
         ("heat_rule: warm", "one of"),
         ("no_such: 1", "no parameter"),

@@ -115,6 +115,16 @@ def test_the_same_commands_give_the_same_telemetry_with_it_and_without():
         assert with_it.telemetry() == without.telemetry()
 
 
+def test_after_a_reset_it_brakes_as_before():
+    rover = simulation(LIMIT)
+    rover.handle("data", DRIVE)
+    frames = frames_until_the_brake(rover)
+    rover.reset()
+    assert rover.dead_man_stops == 0
+    rover.handle("data", DRIVE)
+    assert frames_until_the_brake(rover) == frames
+
+
 @pytest.mark.parametrize(
     ("held", "moving", "brakes"),
     [

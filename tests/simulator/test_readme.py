@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+from itertools import takewhile
 from pathlib import Path
 
 import click
 import pytest
 from telemetry import telemetry
 
+from rover_simulator.config import SimulatorConfig
 from rover_simulator.main import command
 from rover_simulator.wire.unity_client import ANSWERED_EVENTS
 
@@ -18,12 +21,11 @@ NO_DEFAULT = {"none": None, "off": False}
 def table(heading: str, first: str) -> list[list[str]]:
     """The rows below a heading, of the table whose first column has this name."""
     section = README.read_text().split(f"## {heading}\n", 1)[1].split("\n## ", 1)[0]
+    lines = section[section.index(f"| {first} |") :].splitlines()
     rows = [
         [cell.strip() for cell in line.strip("|").split("|")]
-        for line in section.splitlines()
-        if line.startswith("|")
+        for line in takewhile(lambda line: line.startswith("|"), lines)
     ]
-    assert rows[0][0] == first
     return rows[2:]
 
 
@@ -56,3 +58,10 @@ def test_the_events_are_those_that_are_answered():
     rows = table("What it accepts", "event")
     answered = {row[0].strip("`") for row in rows if row[2] == "yes"}
     assert answered == ANSWERED_EVENTS
+
+
+def test_the_parameters_of_the_node_are_those_of_its_configuration():
+    rows = table("Options of `rover sim`", "parameter")
+    assert [row[0].strip("`") for row in rows] == [field.name for field in fields(SimulatorConfig)]
+    for row, field in zip(rows, fields(SimulatorConfig), strict=True):
+        assert row[2].strip("`") == (str(field.default) or "none")

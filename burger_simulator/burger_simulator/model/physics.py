@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from burger_simulator.model.mjcf import model_of
 from burger_simulator.model.robot import GROUP
 from burger_simulator.world.maze import Maze
-from rover_common.geometry import Pose, angles_from_quaternion
+from rover_common.geometry import Pose, angles_from_quaternion, quaternion_from_pose
 
 SETTLING = 100  # steps before anything is measured, in which the body comes to rest on its wheels
 OTHER, WALL, RAMP, BODY = 0, 1, 2, 4  # kinds of geoms
@@ -33,11 +33,25 @@ class Physics:
         mujoco.mj_step1(self._model, self._data)
         for _ in range(SETTLING):
             self.advance()
+        self._level = float(self._data.qpos[2])  # [m] of the body on level ground
 
     def advance(self) -> None:
         """One step; in two halves, so that positions and rates are those after it."""
         mujoco.mj_step2(self._model, self._data)
         mujoco.mj_step1(self._model, self._data)
+
+    def place(self, pose: Pose) -> bool:
+        """Put the body on level ground, standing; False, and as before, where it is not free."""
+        before = self._data.qpos.copy(), self._data.qvel.copy()
+        x, y, z, w = quaternion_from_pose(Pose(pose.x, pose.y, pose.yaw))
+        self._data.qpos[:7] = (pose.x, pose.y, self._level, w, x, y, z)
+        self._data.qvel[:] = 0.0
+        mujoco.mj_step1(self._model, self._data)
+        free = not any(self.touches())
+        if not free:
+            self._data.qpos[:], self._data.qvel[:] = before
+            mujoco.mj_step1(self._model, self._data)
+        return free
 
     def drive(self, left: float, right: float) -> None:
         """Speeds [rad/s] that the wheels' servos go for."""

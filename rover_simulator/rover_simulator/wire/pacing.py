@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
+from rover_simulator.gate import StepGate
 from rover_simulator.simulation import Simulation
 from rover_simulator.wire.unity_client import (
     ANSWERED_EVENTS,
@@ -17,6 +18,7 @@ from rover_simulator.wire.unity_client import (
 )
 
 POLL_PERIOD = 0.5  # [s] within which an end without an event is noticed
+HELD_PERIOD = 0.02  # [s] between two looks whether a frame may be made that is held up
 
 Ended = Callable[[], bool]
 
@@ -65,9 +67,13 @@ class LockstepPacing:
     answered, but only one telemetry follows: with one pending, a run depends on the commands alone.
     """
 
-    def __init__(self, simulation: Simulation, on_frame: Callable[[], None]) -> None:
+    def __init__(
+        self, simulation: Simulation, on_frame: Callable[[], None], gate: StepGate | None = None
+    ) -> None:
+        """gate: by which frames are held up; open without one."""
         self._simulation = simulation
         self._on_frame = on_frame
+        self._gate = gate or StepGate()
 
     def run(self, client: UnityClient, ended: Ended) -> None:
         simulation = self._simulation
@@ -75,17 +81,18 @@ class LockstepPacing:
         pending = 1  # telemetries that the server has not answered
         accepted = False  # whether an event came that the next frame answers
         while not ended():
-            event = client.receive(POLL_PERIOD)
+            due = accepted and pending == 0  # and held up
+            event = client.receive(HELD_PERIOD if due else POLL_PERIOD)
             if event is None:
-                continue
-            if event.name == OPEN:
+                self._gate.attend()
+            elif event.name == OPEN:
                 client.send_telemetry(simulation.telemetry())
                 pending += 1
             elif event.name in ANSWERED_EVENTS:
                 # A command that cannot be parsed answers a telemetry too, but gets no answer.
                 pending = max(0, pending - 1)
                 accepted |= simulation.handle(event.name, event.data)
-            if accepted and pending == 0:
+            if accepted and pending == 0 and self._gate.opens():
                 simulation.advance()
                 self._on_frame()
                 client.send_telemetry(simulation.telemetry())
@@ -93,15 +100,23 @@ class LockstepPacing:
 
     def while_disconnected(self) -> None:
         """Simulated time stands still."""
+        self._gate.attend()
 
 
 class TimedPacing:
     """Frames at a period of wall time, whether the server answers or not."""
 
-    def __init__(self, simulation: Simulation, on_frame: Callable[[], None], period: float) -> None:
-        """period: [s] of wall time between two frames."""
+    def __init__(
+        self,
+        simulation: Simulation,
+        on_frame: Callable[[], None],
+        period: float,
+        gate: StepGate | None = None,
+    ) -> None:
+        """period: [s] of wall time between two frames; gate: by which they are held up."""
         self._simulation = simulation
         self._on_frame = on_frame
+        self._gate = gate or StepGate()
         self._period = period
         self._next_frame: float | None = None  # None before the first connection
 
@@ -127,7 +142,13 @@ class TimedPacing:
 
     def _advance_when_due(self) -> bool:
         now = time.monotonic()
-        if self._next_frame is None or now < self._next_frame:
+        if self._next_frame is None:
+            self._gate.attend()
+            return False
+        if now < self._next_frame:
+            return False
+        if not self._gate.opens():
+            self._next_frame = now + HELD_PERIOD
             return False
         # A machine that is too slow falls behind real time, but does not try to catch up.
         self._next_frame = max(self._next_frame + self._period, now - self._period)

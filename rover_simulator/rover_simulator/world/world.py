@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from dataclasses import dataclass
 from functools import cached_property
@@ -40,6 +41,13 @@ class World:
     def boulders(self) -> list[Boulder]:
         """Small rocks in the open: the small holes of the map."""
         return boulders_of(self.navigable, zlib.crc32(self.navigable.tobytes()))
+
+    def is_navigable(self, x: float, y: float) -> bool:
+        """Whether the cell of a point [m] is."""
+        row, column = math.floor(y), math.floor(x)
+        rows, columns = self.navigable.shape
+        inside = 0 <= row < rows and 0 <= column < columns
+        return inside and bool(self.navigable[row, column])
 
     def save(self, folder: Path) -> None:
         """Write map.png and world.yaml into the folder."""

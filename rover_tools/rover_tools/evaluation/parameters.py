@@ -8,23 +8,26 @@ from dataclasses import Field, fields
 from pathlib import Path
 from typing import Any
 
-from rover_bridge.config import BridgeConfig
+from rover_bridge.config import BridgeConfig, CameraFrameConfig
 from rover_common.config import problem_of
 from rover_common.errors import RoverError
+from rover_common.frames import FrameConfig
 from rover_common.input_monitor import InputLimits
-from rover_common.nodes import ROVER
+from rover_common.ros.lifecycle import LifecycleConfig
 from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_perception.config import PerceptionConfig
 from rover_recorder.config import RecorderConfig
+from rover_simulator.config import SimulatorConfig
 
 CONFIGS = {
-    "bridge_node": BridgeConfig,
-    "perception_node": PerceptionConfig,
-    "decision_node": DecisionConfig,
-    "dashboard_node": DashboardConfig,
-    "recorder_node": RecorderConfig,
+    "bridge_node": (BridgeConfig, InputLimits, LifecycleConfig, CameraFrameConfig),
+    "perception_node": (PerceptionConfig, InputLimits, FrameConfig),
+    "decision_node": (DecisionConfig, InputLimits, FrameConfig),
+    "simulator_node": (SimulatorConfig, LifecycleConfig),
+    "dashboard_node": (DashboardConfig,),
+    "recorder_node": (RecorderConfig,),
 }
 ALL_NODES = "/**"
 SECTION = "ros__parameters"
@@ -54,10 +57,7 @@ def read_parameters(path: Path) -> dict[str, dict[str, Any]]:
     for name, values in given.items():
         nodes = list(_nodes_of(path, name))
         known = {
-            each.name: each
-            for node in nodes
-            for config in (CONFIGS[node], *([InputLimits] if node in ROVER else []))
-            for each in fields(config)
+            each.name: each for node in nodes for kind in CONFIGS[node] for each in fields(kind)
         }
         for parameter, value in values.items() if nodes else ():
             _check(path, name, str(parameter), value, known)

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rover_common import frames, topics
+from rover_common import topics
+from rover_common.frames import MAP, ODOM, bare
 from rover_common.geometry import Pose, angles_from_quaternion, compose
 from rover_common.ros.conversions import grid_of, pose_of, stamp_of
 from rover_common.ros.sensor_conversions import imu_of
@@ -150,7 +151,8 @@ class _Reader:
 
     def _take_transforms(self, message: Any) -> None:
         for each in message.transforms:
-            if (each.header.frame_id, each.child_frame_id) == (frames.MAP, frames.ODOM):
+            pair = bare(each.header.frame_id), bare(each.child_frame_id)
+            if pair == (MAP, ODOM):
                 self._correction = pose_of_transform(each)
 
     def _add_moment(self) -> None:

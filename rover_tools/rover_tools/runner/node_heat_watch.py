@@ -11,8 +11,9 @@ from rover_interfaces.msg import HeatSourceArray, HeatState
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from rover_common import frames, topics
+from rover_common import topics
 from rover_common.errors import RoverError
+from rover_common.frames import BASE_FOOTPRINT, MAP, ODOM, bare
 from rover_common.geometry import Pose
 from rover_common.ros import conversions, qos
 from rover_common.ros.transforms import pose_of_transform
@@ -115,8 +116,8 @@ class HeatWatch(DiagnosticsWatch):
     def _on_transforms(self, message: TFMessage) -> None:
         for each in message.transforms:
             stamped = conversions.stamp_of(each.header.stamp), pose_of_transform(each)
-            pair = each.header.frame_id, each.child_frame_id
-            if pair == (frames.MAP, frames.ODOM):
+            pair = bare(each.header.frame_id), bare(each.child_frame_id)
+            if pair == (MAP, ODOM):
                 self.corrections.append(stamped)
-            elif pair == (frames.ODOM, frames.BASE_FOOTPRINT):
+            elif pair == (ODOM, BASE_FOOTPRINT):
                 self.odometry.append(stamped)

@@ -21,7 +21,7 @@ class Teleop(NodeInDomain):
         super().__init__("teleop", domain_id)
         self.driver = ""  # who drives, as the bridge says
         self.speed = 0.0  # [m/s]
-        self._velocity = VelocityPublisher(self.node, "auto", topics.CMD_VEL_TELEOP)
+        self._velocity = VelocityPublisher(self.node, "auto", topic=topics.CMD_VEL_TELEOP)
         self.node.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
         self.node.create_subscription(String, topics.DRIVER, self._on_driver, qos.LATCHED)
 
