@@ -21,6 +21,7 @@ from rosgraph_msgs.msg import Clock
 
 from rover_bridge.node import BridgeNode
 from rover_common import topics
+from rover_common.ros import qos
 from rover_dashboard.node import DashboardNode
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
@@ -100,7 +101,7 @@ def rviz_subscriptions() -> list[Endpoint]:
     view = yaml.safe_load(RVIZ.read_text())["Visualization Manager"]["Displays"]
     return [
         Endpoint(
-            topic["Value"],
+            f"/{topic['Value']}",  # relative, so that the view follows RViz into a namespace
             "rviz",
             QoSProfile(
                 depth=topic["Depth"],
@@ -148,3 +149,36 @@ def test_a_reliable_subscription_to_a_best_effort_publisher_is_found(ros, graph)
     endpoints = endpoints_of(graph)
     (problem,) = incompatible(endpoints.publishers, list(endpoints.subscriptions))
     assert problem.startswith("/clock: bridge_node to wrong: ")
+
+
+def test_what_users_subscribe_as_sensor_data_they_receive(graph):
+    """REP-2003: drivers publish reliably, whoever reads a sensor may do so with best effort."""
+    endpoints = endpoints_of(graph)
+    sensors = ("camera/", "odom", "free_scan", "rover_status")
+    published = [e for e in endpoints.publishers if e.topic.removeprefix("/").startswith(sensors)]
+    assert len(published) >= 6
+    sensor_data = QoSProfile(
+        depth=5,
+        reliability=ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.VOLATILE,
+        liveliness=LivelinessPolicy.AUTOMATIC,
+    )
+    wanted = [Endpoint(each.topic, "user", sensor_data) for each in published]
+    assert incompatible(endpoints.publishers, wanted) == []
+
+
+@pytest.mark.parametrize(
+    ("profile", "reliable", "best_effort"),
+    [(qos.FRAME, True, True), (qos.SENSOR, True, True), (qos.SCAN, False, True),
+     (qos.IMU, False, True), (qos.CLOCK, False, True), (qos.VIEW, True, True)],
+)  # fmt: skip
+def test_which_subscriptions_receive_what_is_published(profile, reliable, best_effort):
+    pairs = {ReliabilityPolicy.RELIABLE: reliable, ReliabilityPolicy.BEST_EFFORT: best_effort}
+    for policy, receives in pairs.items():
+        compatibility, _ = qos_check_compatible(profile, QoSProfile(depth=5, reliability=policy))
+        assert (compatibility != QoSCompatibility.ERROR) == receives
+
+
+def test_the_maps_are_what_a_reader_of_maps_asks_for():
+    reader = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    assert qos_check_compatible(qos.LATCHED, reader)[0] != QoSCompatibility.ERROR

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from dataclasses import fields
 from enum import IntEnum
@@ -10,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from interface_files import interface_files, members_of
-from launch_files import FOLDER, constant_of
+from launch_files import FOLDER
 from node_endpoints import PROFILES, endpoints, listed
 from rclpy.node import Node
 from readme_tables import ROOT, column, table
@@ -20,6 +19,9 @@ from rover_bridge import active_client, errors, run_tracker
 from rover_bridge.config import BridgeConfig
 from rover_bridge.counters import Counter
 from rover_bridge.node import BridgeNode
+from rover_bringup import heat, mission, navigation, starts
+from rover_bringup.arguments import ARGUMENTS
+from rover_bringup.starts import Start
 from rover_common import topics
 from rover_common.input_monitor import InputLimits
 from rover_common.vehicle import ROVER
@@ -31,9 +33,14 @@ BRIDGE = ROOT / "rover_bridge" / "README.md"
 COMMON = ROOT / "rover_common" / "README.md"
 BRINGUP = ROOT / "rover_bringup" / "README.md"
 INTERFACES = ROOT / "rover_interfaces" / "README.md"
-LAUNCH = FOLDER / "mission.launch.py"
 # One participant of DDS has one type on a topic, and the second robot's velocities are stamped.
 OF_BRIDGE = {"port": 0, "enable_stamped_cmd_vel": True}
+LAUNCH_FILES = {
+    "mission": mission.NAMES,
+    "heat": heat.NAMES,
+    "heat_controller": heat.CONTROLLER_NAMES,
+    "navigation": navigation.NAMES,
+}
 NODES = {
     "burger": BurgerNode,
     "bridge": BridgeNode,
@@ -115,40 +122,42 @@ def test_the_topics_are_those_that_the_nodes_publish(ros):
         assert of_readme == of_node
 
 
-@pytest.mark.parametrize("file", sorted(FOLDER.glob("*.launch.py")), ids=lambda file: file.name)
-def test_the_launch_arguments_are_those_of_the_launch_file(file):
-    arguments = constant_of(file, "ARGUMENTS")
-    rows = table(BRINGUP, f"Launch arguments of `{file.name}`")
-    assert [row["argument"] for row in rows] == list(arguments)
+def test_the_launch_arguments_are_those_of_the_list():
+    rows = table(BRINGUP, "Launch arguments")
+    assert [row["argument"] for row in rows] == list(ARGUMENTS)
     for row in rows:
-        default, meaning = arguments[row["argument"]]
-        if default is not None:  # a file of the package, by a substitution
-            assert row["default"] == (default or "none")
+        default, meaning = ARGUMENTS[row["argument"]]
+        if default is not None:  # a file of the package
+            assert row["default"] == (default or "")
         assert row["meaning"] == meaning
-        assert f"[{row['argument']}:=" in file.read_text() or row["argument"] == "map"
+        taken = {name for name, names in LAUNCH_FILES.items() if row["argument"] in names}
+        assert set(row["of"].replace("`", "").split(", ")) == taken
 
 
-def test_the_launched_nodes_are_those_of_the_launch_file():
+def test_the_launch_files_are_those_of_the_table():
+    files = {file.name.removesuffix(".launch.py") for file in FOLDER.glob("*.launch.py")}
+    assert files == set(LAUNCH_FILES)
+
+
+def test_the_launched_nodes_are_those_of_the_plan(monkeypatch):
+    monkeypatch.setattr(starts, "get_package_share_directory", lambda _: str(BRINGUP.parent))
+    defaults = {name: default or "" for name, (default, _) in ARGUMENTS.items()}
+    given = {name: defaults[name] for name in mission.NAMES} | {
+        "sim": "true",
+        "record": "true",
+        "robot_model": "false",
+    }
+    plan = [each for each in mission.plan(given) if isinstance(each, Start)]
     rows = table(BRINGUP, "Nodes")
-    assert {row["package"]: row["executable"] for row in rows} == constant_of(LAUNCH, "NODES")
-    assert all(row["node name"] == row["executable"] for row in rows)
-
-
-def test_the_launch_file_starts_a_node_again_that_ends():
-    calls = [
-        {keyword.arg: ast.unparse(keyword.value) for keyword in call.keywords}
-        for call in ast.walk(ast.parse(LAUNCH.read_text()))
-        if isinstance(call, ast.Call) and ast.unparse(call.func) == "Node"
-    ]
-    (nodes,) = [call for call in calls if call["package"] == "package"]
-    assert nodes["respawn"] == "True"
-    assert nodes["respawn_delay"] == "RESPAWN_DELAY"
-    assert 0.0 < constant_of(LAUNCH, "RESPAWN_DELAY") <= 5.0
+    assert {row["node"]: (row["package"], row["when it ends"]) for row in rows} == {
+        each.executable: (each.package, each.at_end.value) for each in plan
+    }
 
 
 def test_the_bringup_files_are_all_listed():
     folder = BRINGUP.parent
-    files = [path for name in ("launch", "config", "rviz") for path in (folder / name).iterdir()]
+    names = ("launch", "config", "rviz", "urdf", "foxglove")
+    files = [path for name in names for path in (folder / name).iterdir()]
     names = column(BRINGUP, "Files", "file")
     assert set(names) == {str(path.relative_to(folder)) for path in files if path.is_file()}
 

@@ -13,15 +13,18 @@ import networkx
 import pytest
 import yaml
 
-from burger_simulator.config import BurgerConfig
-from rover_bridge.config import BridgeConfig
+from burger_simulator.config import BurgerConfig, SensorFrameConfig
+from rover_bridge.config import BridgeConfig, CameraFrameConfig
+from rover_common.frames import BurgerFrameConfig, FrameConfig
 from rover_common.input_monitor import InputLimits
+from rover_common.ros.lifecycle import LifecycleConfig
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
 from rover_heat.config import HeatConfig
 from rover_navigation.node_config import NavigatorNodeConfig
 from rover_perception.config import PerceptionConfig
 from rover_recorder.config import RecorderConfig
+from rover_simulator.config import SimulatorConfig
 
 grimp = pytest.importorskip("grimp", reason="the lint tools are on the other platform")
 
@@ -31,16 +34,16 @@ MODULES = sorted(path for name in PACKAGES for path in (ROOT / name / name).rglo
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 FILE_LINES, FUNCTION_LINES = 250, 45
 CONFIGS = {
-    "bridge_node": BridgeConfig,
-    "perception_node": PerceptionConfig,
-    "decision_node": DecisionConfig,
-    "dashboard_node": DashboardConfig,
-    "recorder_node": RecorderConfig,
-    "heat_node": HeatConfig,
-    "burger_node": BurgerConfig,
-    "navigator_node": NavigatorNodeConfig,
+    "bridge_node": (BridgeConfig, InputLimits, LifecycleConfig, CameraFrameConfig),
+    "perception_node": (PerceptionConfig, InputLimits, FrameConfig),
+    "decision_node": (DecisionConfig, InputLimits, FrameConfig),
+    "simulator_node": (SimulatorConfig, LifecycleConfig),
+    "dashboard_node": (DashboardConfig,),
+    "recorder_node": (RecorderConfig,),
+    "heat_node": (HeatConfig, InputLimits, BurgerFrameConfig),
+    "burger_node": (BurgerConfig, LifecycleConfig, SensorFrameConfig),
+    "navigator_node": (NavigatorNodeConfig, InputLimits, BurgerFrameConfig),
 }
-WITH_INPUTS = ("bridge_node", "perception_node", "decision_node", "navigator_node", "heat_node")
 FILES = {  # of the others all are in one
     "heat_node": "heat.yaml",
     "burger_node": "burger.yaml",
@@ -48,8 +51,8 @@ FILES = {  # of the others all are in one
 }
 MESSAGE_PACKAGES = {
     "action_msgs", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "nav2_msgs",
-    "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "rover_interfaces", "sensor_msgs", "std_msgs",
-    "std_srvs", "tf2_msgs", "visualization_msgs",
+    "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "rover_interfaces", "sensor_msgs",
+    "simulation_interfaces", "std_msgs", "std_srvs", "tf2_msgs", "visualization_msgs",
 }  # fmt: skip
 # The rosdep key of each library that is imported under another name.
 ROSDEP_KEYS = {
@@ -156,10 +159,7 @@ def test_package_description(package):
 def test_the_yaml_lists_every_parameter_with_its_default_and_description(node):
     text = (ROOT / "rover_bringup" / "config" / FILES.get(node, "rover.yaml")).read_text()
     shipped = yaml.safe_load(text)[f"/**/{node}"]["ros__parameters"]
-    declared_fields = [
-        *fields(CONFIGS[node]),
-        *(fields(InputLimits) if node in WITH_INPUTS else ()),
-    ]
+    declared_fields = [field for config in CONFIGS[node] for field in fields(config)]
     declared = {field.name: field.default for field in declared_fields}
     assert MISSING not in declared.values()
     assert shipped == declared

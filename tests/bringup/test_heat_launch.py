@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import importlib.util
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
 import rclpy
 import yaml
-from launch_files import FOLDER
 from rclpy.context import Context
 from rclpy.node import Node
 from readme_tables import ROOT
 
+from rover_bringup import navigation, starts
+from rover_bringup.arguments import ARGUMENTS
+from rover_bringup.starts import LaunchError, Start
 from rover_common import frames, topics
 from rover_common.burger import BURGER
 from rover_heat.config import HeatConfig
@@ -102,44 +102,25 @@ def test_the_view_shows_topics_of_the_mission():
     assert view["Visualization Manager"]["Global Options"]["Fixed Frame"] == frames.MAP
 
 
-@pytest.fixture
-def navigation(monkeypatch) -> ModuleType:
-    """The launch file as a module, with packages that the test installs."""
-    pytest.importorskip("launch_ros", reason="launch is not installed")
-    spec = importlib.util.spec_from_file_location("navigation", FOLDER / "navigation.launch.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    monkeypatch.setattr(module, "file_of", lambda name: str(CONFIG / name))
-    monkeypatch.setattr(module, "get_package_share_directory", lambda name: f"/opt/{name}")
-    monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
-    return module
-
-
-def started(navigation: ModuleType, installed: bool, **given: str) -> list[str]:
-    """The executables, and the type of what is no node."""
-    from launch import LaunchContext
-
-    navigation.is_installed = lambda _: installed
-    context = LaunchContext()
-    defaults = {name: default for name, (default, _) in navigation.ARGUMENTS.items()}
-    context.launch_configurations.update(defaults | given)
-    entities = navigation.start_navigator(context)
-    return [
-        each.node_executable if hasattr(each, "node_executable") else type(each).__name__
-        for each in entities
-    ]
+def started(monkeypatch, nav2: bool, **values: str) -> list[str]:
+    """The executables, and the files of what is included; `nav2`: it is installed."""
+    here = str(ROOT / "rover_bringup")
+    monkeypatch.setattr(navigation, "is_installed", lambda _: nav2)
+    monkeypatch.setattr(starts, "get_package_share_directory", lambda _: here)
+    monkeypatch.setattr(navigation, "get_package_share_directory", lambda _: here)
+    defaults = {name: ARGUMENTS[name][0] or "" for name in navigation.NAMES}
+    plan = navigation.plan(defaults | values)
+    return [each.executable if isinstance(each, Start) else Path(each.file).stem for each in plan]
 
 
 SERVERS = [
     "controller_server", "planner_server", "behavior_server", "bt_navigator", "lifecycle_manager",
 ]  # fmt: skip
-SLAM, KNOWN = ["IncludeLaunchDescription"], ["map_server", "amcl", "lifecycle_manager"]
+SLAM, KNOWN = ["online_async_launch"], ["map_server", "amcl", "lifecycle_manager"]
 
 
 @pytest.mark.parametrize(
-    ("installed", "given", "expected"),
+    ("nav2", "values", "expected"),
     [
         (False, {}, ["navigator_node"]),
         (True, {}, SERVERS + SLAM),
@@ -148,12 +129,13 @@ SLAM, KNOWN = ["IncludeLaunchDescription"], ["map_server", "amcl", "lifecycle_ma
         (True, {"slam": "false", "map": "maze.yaml"}, SERVERS + KNOWN),
     ],
 )
-def test_exactly_one_navigator_is_started(navigation, installed, given, expected):
-    assert started(navigation, installed, **given) == expected
+def test_exactly_one_navigator_is_started(monkeypatch, nav2, values, expected):
+    monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
+    assert started(monkeypatch, nav2, **values) == expected
 
 
 @pytest.mark.parametrize(
-    ("installed", "given", "error"),
+    ("nav2", "values", "error"),
     [
         (False, {"navigator": "nav2"}, "needs nav2_controller"),
         (False, {"slam": "false", "map": "maze.yaml"}, "makes its own map"),
@@ -161,15 +143,17 @@ def test_exactly_one_navigator_is_started(navigation, installed, given, expected
         (True, {"navigator": "nav3"}, "none of auto, nav2, embedded"),
     ],
 )
-def test_what_no_navigator_can_do_is_an_error(navigation, installed, given, error):
-    with pytest.raises(RuntimeError, match=error):
-        started(navigation, installed, **given)
+def test_what_no_navigator_can_do_is_an_error(monkeypatch, nav2, values, error):
+    with pytest.raises(LaunchError, match=error):
+        started(monkeypatch, nav2, **values)
 
 
-def test_the_parameters_of_nav2_are_those_of_the_robots_model(navigation, monkeypatch):
-    given = {"params_file": ""}
+def test_the_parameters_of_nav2_are_those_of_the_robots_model(monkeypatch):
+    monkeypatch.setattr(navigation, "shipped", lambda folder, name: str(CONFIG / name))
+    given = {"navigation_params_file": ""}
+    monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
     assert navigation.nav2_parameters(given) == str(NAV2)
     monkeypatch.setenv("TURTLEBOT3_MODEL", "waffle")
-    with pytest.raises(RuntimeError, match="TURTLEBOT3_MODEL=waffle"):
+    with pytest.raises(LaunchError, match="TURTLEBOT3_MODEL=waffle"):
         navigation.nav2_parameters(given)
-    assert navigation.nav2_parameters({"params_file": str(NAV2)}) == str(NAV2)
+    assert navigation.nav2_parameters({"navigation_params_file": str(NAV2)}) == str(NAV2)

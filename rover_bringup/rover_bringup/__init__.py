@@ -1,0 +1,1 @@
+"""What the launch files start, and with which arguments: plain data, but for `launching`."""
