@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"  # read when a message module is imported
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+os.environ.pop("ROS_DOMAIN_ID", None)  # what the tests start takes a free domain, one each
 # What a shell runs in the background is deaf to Ctrl-C; the programs under test inherit from here.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)

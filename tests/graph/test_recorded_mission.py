@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -25,10 +24,9 @@ NODES = {"bridge", "perception", "decision"}  # as the table of topics names the
 
 
 def rover(*arguments: str) -> subprocess.CompletedProcess[str]:
-    environment = {k: v for k, v in os.environ.items() if k != "ROS_DOMAIN_ID"}
     return subprocess.run(
         [sys.executable, "-m", "rover_tools.cli.main", *arguments],
-        capture_output=True, text=True, timeout=120, env=environment,
+        capture_output=True, text=True, timeout=120,
     )  # fmt: skip
 
 

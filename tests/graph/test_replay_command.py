@@ -1,7 +1,6 @@
 """`rover replay` as a user calls it: three processes, a result folder, one JSON object."""
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -20,13 +19,11 @@ KEYS = {
 
 
 def rover(*arguments: str) -> subprocess.CompletedProcess[str]:
-    environment = {k: v for k, v in os.environ.items() if k != "ROS_DOMAIN_ID"}
     return subprocess.run(
         [sys.executable, "-m", "rover_tools.cli.main", *arguments],
         capture_output=True,
         text=True,
         timeout=120,
-        env=environment,
     )
 
 

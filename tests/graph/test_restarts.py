@@ -64,8 +64,7 @@ def wait(condition) -> None:
 
 
 @pytest.fixture
-def driven(tmp_path, monkeypatch) -> Iterator[Driven]:
-    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+def driven(tmp_path) -> Iterator[Driven]:
     generate_world(SEED, SIZE).save(tmp_path / "world")
     overrides = {
         node: {**OVERRIDES.get(node, {}), **values}
@@ -103,15 +102,14 @@ def test_a_mission_goes_on_after_all_its_processes_were_killed(tmp_path):
         sys.executable, "-m", "rover_tools.cli.main", "mission", "--no-record", "--no-dashboard",
     ]  # fmt: skip
     limits = ["--seed", str(SEED), "--size", str(SIZE), "--fps", str(FPS), "--time-limit", "30"]
-    environment = {k: v for k, v in os.environ.items() if k != "ROS_DOMAIN_ID"}
-    with subprocess.Popen([*command, *limits, "--out", str(folder)], env=environment) as process:
+    with subprocess.Popen([*command, *limits, "--out", str(folder)]) as process:
         wait(lambda: last_line(folder) is not None and last_line(folder)[0] > 12.0)
         children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
         for pid in [process.pid, *map(int, children)]:
             os.kill(pid, signal.SIGKILL)
     before = last_line(folder)
     resumed = subprocess.run(
-        [*command, "--resume", str(folder)], env=environment, timeout=5 * WAIT, check=True,
+        [*command, "--resume", str(folder)], timeout=5 * WAIT, check=True,
         capture_output=True, text=True,
     )  # fmt: skip
     log = (folder / "log" / "decision_node.log").read_text()
