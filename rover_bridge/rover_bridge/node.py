@@ -2,9 +2,8 @@
 
 Publishes camera/image_raw, camera/image_raw/compressed (while subscribed), camera/camera_info,
 odom, rover_status, bridge_state (latched), /tf, /tf_static (latched), /clock (when the telemetry
-carries sim_time) and /diagnostics. Subscribes cmd_drive, and /diagnostics for the rover's health.
-A lifecycle node. Parameters: BridgeConfig, InputLimits, LifecycleConfig, CameraFrameConfig.
-Counters: counters.Counter and errors. Beside it: node_insets, node_listener and node_drivers.
+carries sim_time) and /diagnostics. Subscribes cmd_drive and /diagnostics. A lifecycle node.
+Parameters: BridgeConfig, InputLimits, LifecycleConfig, CameraFrameConfig. Counters: see counters.
 """
 
 from __future__ import annotations
@@ -238,7 +237,8 @@ class BridgeNode(ManagedNode):
         self._answers.send(Answer(client, SAFE_COMMAND, counter), refused=text)
 
     def _publish_state(self) -> None:
-        self._state.publish(String(data="connected" if self._active.name else "disconnected"))
+        self._diagnostics.state = state = "connected" if self._active.name else "disconnected"
+        self._state.publish(String(data=state))
 
     def _count(self, counter: str, text: str) -> None:
         self._diagnostics.counts[counter] += 1

@@ -161,7 +161,9 @@ class DecisionNode(CheckedNode):
     def _on_frame(self, frame: Frame) -> None:
         failures = self._core.plan_failures
         self._state_file.resume(frame.run, frame.stamp, self._resume)
-        decision = self._core.step(frame)
+        with self._diagnostics.ticks:
+            decision = self._core.step(frame)
+        self._diagnostics.state = decision.state.name
         now = int(self.get_clock().now().nanoseconds)
         self._command.publish(
             conversions.command_message_of(

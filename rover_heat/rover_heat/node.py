@@ -145,6 +145,10 @@ class HeatNode(CheckedNode):
 
     def _decide(self, batch: SensorBatch) -> None:
         """One tick of the mission."""
+        with self._diagnostics.ticks:
+            self._step(batch)
+
+    def _step(self, batch: SensorBatch) -> None:
         stamp = batch.stamp
         self._navigator.update(stamp)
         grid, new_map = self._sensors.grid, self._sensors.grid is not self._grid
@@ -190,6 +194,7 @@ class HeatNode(CheckedNode):
         parts = mission.parts
         counts, warn = self._diagnostics.counts, self._diagnostics.set_warning
         counts["ticks"] += 1
+        self._diagnostics.state = self._core.state.name
         counts["thermal_dropped"] = self._sensors.dropped + sum(parts.sensing.dropped.values())
         counts["plans_failed"] = self._core.plan_failures
         apart = parts.inputs.apart

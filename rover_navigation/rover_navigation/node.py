@@ -150,7 +150,9 @@ class NavigatorNode(CheckedNode):
             self._step(batch)
 
     def _step(self, batch: SensorBatch) -> None:
-        self._last = output = self._navigator.step(batch)
+        with self._diagnostics.ticks:
+            output = self._navigator.step(batch)
+        self._last = output
         self._send_transforms(batch.odometry, output)
         if output.map is not None:
             self._map.publish(grid_message_of(output.stamp, output.map, self._frames))

@@ -131,7 +131,8 @@ class PerceptionNode(CheckedNode):
                 parts[topics.IMAGE], parts[topics.ODOMETRY], parts[topics.STATUS]
             )
             self._state.resume(frame.run, frame.stamp, self._resume)
-            result = self._core.process(frame)
+            with self._diagnostics.ticks:
+                result = self._core.process(frame)
         except FrameError as error:
             self._drop(error.counter, error)
         else:

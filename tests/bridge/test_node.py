@@ -183,5 +183,6 @@ def test_the_diagnostics_count_what_came_and_how_it_was_answered(ros, bridge, wa
         Counter.RUNS: "1",
         Counter.ANSWERED: "1",
         "telemetry_not_a_number": "1",
+        "state": "disconnected",
     }
     assert ros.spin_until(lambda: values() == expected), values()

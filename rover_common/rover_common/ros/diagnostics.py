@@ -19,6 +19,7 @@ from rover_common.health import Finding, Level, TeamHealth
 from rover_common.input_monitor import Input, InputMonitor, InputReport
 from rover_common.ros import qos
 from rover_common.ros.checked_node import CheckedNode
+from rover_common.tick_times import TickTimes
 
 PERIOD = 0.25  # [s] between two reports
 PEERS = "peers"  # the part that says who is not connected
@@ -37,7 +38,8 @@ class NodeDiagnostics:
     level is WARN. `counts` is the node's own: count events with `diagnostics.counts["name"] += 1`.
     It is that of a CheckedNode, whose refused messages are drops of its inputs. Other troubles are
     set by name, and taken away with an empty text. `before_report` is called with the time [s] of
-    the steady clock before the inputs are judged.
+    the steady clock before the inputs are judged. `state` is what the node does, in a word; work
+    within `with diagnostics.ticks:` is measured.
     """
 
     def __init__(
@@ -50,6 +52,9 @@ class NodeDiagnostics:
         self.counts: Counter[str] = node.counts if isinstance(node, CheckedNode) else Counter()
         if isinstance(node, CheckedNode) and inputs is not None:
             node.on_refused = partial(_drop, inputs)
+        self.state = ""
+        self.ticks = TickTimes()
+        self._tick_texts: dict[str, str] = {}  # of the last report with a tick
         self._node = node
         self._peers = dict(peers)
         self._inputs = inputs
@@ -116,8 +121,17 @@ class NodeDiagnostics:
             max((each.level for each in troubles), default=Level.OK),
             "; ".join(texts) or "connected",
         )
-        status.values = [KeyValue(key=k, value=str(v)) for k, v in sorted(self.counts.items())]
+        values = {**self.counts, **self._tick_values()}
+        if self.state:
+            values["state"] = self.state
+        status.values = [KeyValue(key=k, value=str(v)) for k, v in sorted(values.items())]
         return status
+
+    def _tick_values(self) -> dict[str, str]:
+        if (taken := self.ticks.take()) is not None:
+            mean, longest = (f"{1e3 * each:.1f}" for each in taken)
+            self._tick_texts = {"tick time [ms]": mean, "longest tick [ms]": longest}
+        return self._tick_texts
 
 
 class TeamDiagnostics:

@@ -57,7 +57,9 @@ class DiagnosticsWatch(NodeInDomain):
     def counts(self) -> dict[str, dict[str, int]]:
         """The nodes' counters by node name."""
         return {
-            name.rsplit("/", 1)[-1]: {v.key: int(v.value) for v in status.values}
+            name.rsplit("/", 1)[-1]: {
+                v.key: int(v.value) for v in status.values if v.value.isdecimal()
+            }
             for name, status in self.diagnostics.items()
             if PART not in name
         }
