@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from pathlib import Path
 
 from aiohttp import WSMsgType, web
@@ -22,9 +23,12 @@ from rover_dashboard.protocol import (
 
 STATIC = Path(__file__).parent / "static"
 PERIOD = 0.05  # [s] between two looks for news
-HEARTBEAT = 10.0  # [s] after which a viewer that does not answer is gone
+# [s] between two questions whether a viewer is there; within half of it, it has to answer. A busy
+# machine's browser takes seconds, and who asked for something meanwhile would not hear of it.
+HEARTBEAT = 60.0
 MAX_VIEWERS = 16
 MAX_MESSAGE = 4096  # bytes from a page
+MAX_ASKED = 32  # wishes of one viewer that wait for their answers; more are read later
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:;"
@@ -90,19 +94,25 @@ class Server:
             raise web.HTTPForbidden(text="only the page of this server may connect")
         if len(self._viewers) >= MAX_VIEWERS:
             raise web.HTTPServiceUnavailable(text="too many viewers")
-        socket = web.WebSocketResponse(heartbeat=HEARTBEAT, max_msg_size=MAX_MESSAGE)
+        socket = web.WebSocketResponse(  # what is large is compressed already
+            heartbeat=HEARTBEAT, max_msg_size=MAX_MESSAGE, compress=False
+        )
         await socket.prepare(request)
         self._viewers.add(socket)
         self._robot.watch(True)
-        pump = asyncio.create_task(self._pump(socket))
+        tasks = {asyncio.create_task(self._pump(socket))}
+        places = asyncio.Semaphore(MAX_ASKED)
         try:
-            async for message in socket:
+            async for message in socket:  # also while the graph takes its time for an answer
                 if message.type is WSMsgType.TEXT:
-                    await socket.send_str(await self._answer(message.data))
-        except ConnectionError:
-            pass  # it left while an answer was sent
+                    await places.acquire()
+                    task = asyncio.create_task(self._answer(socket, message.data))
+                    tasks.add(task)
+                    task.add_done_callback(tasks.discard)
+                    task.add_done_callback(lambda _: places.release())
         finally:
-            pump.cancel()
+            for task in tasks:
+                task.cancel()
             self._viewers.discard(socket)
             if not self._viewers:
                 self._robot.watch(False)
@@ -123,12 +133,14 @@ class Server:
         except ConnectionError:
             pass  # it left; the reading side ends as well
 
-    async def _answer(self, text: str) -> str:
+    async def _answer(self, socket: web.WebSocketResponse, text: str) -> None:
         try:
             ask = parse(text)
+            answer = answer_message(ask.id, await self._robot.carry_out(ask.wish))
         except ProtocolError as error:
-            return answer_message(-1, Answer(False, str(error)))
-        return answer_message(ask.id, await self._robot.carry_out(ask.wish))
+            answer = answer_message(-1, Answer(False, str(error)))
+        with suppress(ConnectionError):  # it left
+            await socket.send_str(answer)
 
     async def _end_viewers(self, _: web.Application) -> None:
         for socket in set(self._viewers):

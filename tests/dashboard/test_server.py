@@ -33,9 +33,12 @@ class Notes:
     def __init__(self) -> None:
         self.asked: list[Wish] = []
         self.watched: asyncio.Queue[bool] = asyncio.Queue()
+        self.slow: dict[str, asyncio.Event] = {}  # what a wish of this name waits for
 
     async def carry_out(self, wish: Wish) -> Answer:
         self.asked.append(wish)
+        if wish.name in self.slow:
+            await self.slow[wish.name].wait()
         return Answer(wish != MissionRequest("resume"), f"{wish.name}: done")
 
     def watch(self, watched: bool) -> None:
@@ -119,6 +122,17 @@ async def test_the_page_gets_what_changed(it: Served):
         assert await receive(page, "mission") == {"state": "FORWARD"}
         it.slots.put("mission", {"state": "STOP"})
         assert await receive(page, "mission") == {"state": "STOP"}
+
+
+@serving
+async def test_a_wish_that_takes_its_time_holds_up_no_other(it: Served):
+    it.robot.slow["pause"] = asyncio.Event()
+    async with it.connect() as page:
+        await page.send_json({"id": 1, "request": "pause"})
+        await page.send_json({"id": 2, "request": "start"})
+        assert (await receive(page, "answer"))["id"] == 2
+        it.robot.slow["pause"].set()
+        assert (await receive(page, "answer"))["id"] == 1
 
 
 @serving

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 import pytest
+from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
@@ -113,11 +114,10 @@ def test_a_frame_prefix_is_in_every_message_of_a_rover(ros):
     prefix = [Parameter("frame_prefix", value="one/")]
     bridge = ros.add(lambda parameter_overrides, **kwargs: BridgeNode(
         parameter_overrides=parameter_overrides + prefix, **kwargs), port=0)  # fmt: skip
-    links: list[TFMessage] = []
+    links: list[TransformStamped] = []  # each is handed on by itself
     bridge.create_subscription(TFMessage, "/tf_static", links.append, qos.TF_STATIC)
-    assert ros.spin_until(lambda: links)
-    names = {name for link in links[0].transforms
-             for name in (link.header.frame_id, link.child_frame_id)}  # fmt: skip
+    assert ros.spin_until(lambda: len(links) == 3)
+    names = {name for link in links for name in (link.header.frame_id, link.child_frame_id)}
     assert names == {
         "one/map", "one/odom", "one/base_link", "one/camera_link", "one/camera_optical_frame",
     }  # fmt: skip
