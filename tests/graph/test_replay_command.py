@@ -13,7 +13,8 @@ from rover_simulator.recordings.recorder import record_drive
 
 ROOT = Path(__file__).resolve().parents[2]
 KEYS = {
-    "frames", "frames_skipped", "frames_per_second", "latency_ms_p50", "latency_ms_p99",
+    "frames", "frames_refused", "frames_skipped", "frames_per_second", "latency_ms_p50",
+    "latency_ms_p99",
     "percent_mapped", "fidelity", "f1", "rocks_located", "rocks_missed", "rocks_false",
 }  # fmt: skip
 
@@ -38,7 +39,8 @@ def test_replay_as_the_readme_has_it(tmp_path, monkeypatch):
     (line,) = done.stdout.splitlines()
     result = json.loads(line)
     assert set(result) >= KEYS
-    assert (result["frames"], result["frames_skipped"]) == (200, 0)
+    counts = [result[key] for key in ("frames", "frames_refused", "frames_skipped")]
+    assert counts == [200, 0, 0]
     assert result["fidelity"] > 90
     assert result["percent_mapped"] > 2
     assert json.loads((out / "result.json").read_text()) == result
@@ -57,6 +59,22 @@ def test_replay_of_nothing_is_one_sentence(tmp_path):
     assert done.returncode == 1
     assert done.stderr.startswith("rover replay: ")
     assert "robot_log.csv" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_run_of_which_the_bridge_refuses_every_frame_is_one_sentence(tmp_path):
+    drive = record_drive(tmp_path / "drive", seed=1, frames=5)
+    log = drive.folder / "robot_log.csv"
+    head, *rows = log.read_text().splitlines()
+    column = head.split(";").index("X_Position")
+    cells = [row.split(";") for row in rows]
+    for row in cells:
+        row[column] = "5000"
+    log.write_text("\n".join([head, *(";".join(row) for row in cells)]))
+    done = rover("replay", str(drive.folder), "--out", str(tmp_path / "result"))
+    assert done.returncode == 1
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("rover replay: none of 5 frames could be used: out of range (5); ")
     assert "Traceback" not in done.stderr
 
 
