@@ -91,15 +91,22 @@ class Ros:
         self.context.try_shutdown()
 
 
+def participants() -> int:
+    """In DDS, of this process: each has one thread of this name."""
+    names = [(task / "comm").read_text() for task in Path("/proc/self/task").iterdir()]
+    return sum(name.startswith("dds.ev.") for name in names)
+
+
 @pytest.fixture(autouse=True)
 def no_thread_left() -> Iterator[None]:
-    """Every test ends the threads that it started."""
-    before = set(threading.enumerate())
+    """Every test ends the threads that it started, and those of its nodes."""
+    before, participants_before = set(threading.enumerate()), participants()
     yield
     end = time.monotonic() + WAIT
     while left := [t for t in threading.enumerate() if t not in before and t.is_alive()]:
         assert time.monotonic() < end, f"threads left behind: {left}"
         left[0].join(0.1)
+    assert participants() <= participants_before, "a node that was not destroyed"
 
 
 @pytest.fixture(autouse=True)

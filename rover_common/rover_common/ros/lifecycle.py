@@ -60,6 +60,11 @@ class ManagedNode(CheckedNode, LifecycleNode):
         if self._failure is not None:
             raise self._failure
 
+    def destroy_node(self) -> None:
+        """And what rclpy leaves, which would keep the node in the graph."""
+        super().destroy_node()
+        self._state_machine.destroy_when_not_in_use()
+
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         return self._do(self.configure, self.active)
 
