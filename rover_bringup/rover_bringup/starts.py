@@ -24,7 +24,7 @@ class LaunchError(RoverError, RuntimeError):
 class AtEnd(Enum):
     """What follows when a node ends."""
 
-    RESPAWN = "it is started again, unless it cannot start"
+    RESPAWN = "it is started again"  # unless it cannot start, see ends_all
     SHUTDOWN = "all other nodes end as well"
     NOTHING = "the others go on"
 
