@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 # Default and meaning by name. A default of None is a file of this package that the launch file
 # names; an empty one leaves the value to the parameter file, or to the node.
 ARGUMENTS: dict[str, tuple[str | None, str]] = {
@@ -13,6 +15,7 @@ ARGUMENTS: dict[str, tuple[str | None, str]] = {
     "sim": ("false", "start the simulator, too, and take the time from it"),
     "seed": ("", "of the simulator's world"),
     "sim_rate": ("", "times real time of the simulator, 0 as fast as it goes"),
+    "sim_size": ("", "of a generated canyon; 1 is as large as the original"),
     "sim_params_file": (None, "parameters of the simulator"),
     "dashboard": ("true", "serve the live page"),
     "dashboard_port": ("", "TCP port of the live page"),
@@ -31,7 +34,8 @@ ARGUMENTS: dict[str, tuple[str | None, str]] = {
 SWITCHES = (
     "use_sim_time", "sim", "dashboard", "record", "use_rviz", "slam",
 )  # fmt: skip
-WHOLE_NUMBERS = ("seed", "port", "dashboard_port")
+WHOLE_NUMBERS = ("seed", "port", "dashboard_port")  # from 0
+NUMBERS = ("sim_rate", "sim_size")
 LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
 NAVIGATORS = ("auto", "nav2", "embedded")
 MODELS = ("auto", "true", "false")
@@ -48,14 +52,19 @@ def problem_of(given: Given) -> str:
     for name, value in given.items():
         if name in SWITCHES and value.lower() not in ("true", "false", "1", "0"):
             return f"{name}:={value} is neither true nor false"
+        if name in NUMBERS and value and not _is_number(value):
+            return f"{name}:={value} is no number"
         if name in WHOLE_NUMBERS and value and not value.isdecimal():
-            return f"{name}:={value} is no whole number"
+            return f"{name}:={value} is no whole number from 0"
     choices = {"log_level": LOG_LEVELS, "navigator": NAVIGATORS, "robot_model": MODELS}
     for name, known in choices.items():
         if name in given and given[name].lower() not in known:
             return f"{name}:={given[name]} is none of {', '.join(known)}"
-    try:
-        float(given.get("sim_rate") or 0.0)
-    except ValueError:
-        return f"sim_rate:={given['sim_rate']} is no number"
     return ""
+
+
+def _is_number(value: str) -> bool:
+    try:
+        return math.isfinite(float(value))
+    except ValueError:
+        return False

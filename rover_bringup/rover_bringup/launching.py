@@ -12,13 +12,13 @@ from launch.actions import (
     OpaqueFunction,
     Shutdown,
 )
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.events.process import ProcessExited
+from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
-from launch_ros.substitutions import FindPackageShare
 
 from rover_bringup.arguments import ARGUMENTS, Given
-from rover_bringup.starts import PACKAGE, AtEnd, Include, Plan, Start, remappings_of
+from rover_bringup.starts import AtEnd, Include, Plan, Start, ends_all, remappings_of, shipped
 
 RESPAWN_DELAY = 1.0  # [s]
 
@@ -44,12 +44,7 @@ def description_of(
 def _declared(name: str, files: Mapping[str, str]) -> DeclareLaunchArgument:
     default, meaning = ARGUMENTS[name]
     if default is None:
-        folder = PathJoinSubstitution([FindPackageShare(PACKAGE), "config"])
-        return DeclareLaunchArgument(
-            name,
-            default_value=PathJoinSubstitution([folder, files[name]]),
-            description=meaning,
-        )
+        default = shipped("config", files[name])
     return DeclareLaunchArgument(name, default_value=default, description=meaning)
 
 
@@ -58,7 +53,11 @@ def _action_of(planned: Start | Include, given: Given) -> Any:
         arguments = list(planned.arguments.items())
         return IncludeLaunchDescription(planned.file, launch_arguments=arguments)
     values = {name: _value_of(value) for name, value in planned.values.items()}
-    ends_all = Shutdown(reason=f"{planned.executable} has ended")
+
+    def on_exit(event: ProcessExited, _: LaunchContext) -> Shutdown | None:
+        ends = ends_all(planned.at_end, event.returncode)
+        return Shutdown(reason=f"{planned.executable} has ended") if ends else None
+
     return Node(
         package=planned.package,
         executable=planned.executable,
@@ -70,7 +69,7 @@ def _action_of(planned: Start | Include, given: Given) -> Any:
         arguments=[*planned.arguments, "--ros-args", "--log-level", given["log_level"]],
         respawn=planned.at_end is AtEnd.RESPAWN,
         respawn_delay=RESPAWN_DELAY,
-        on_exit=ends_all if planned.at_end is AtEnd.SHUTDOWN else None,
+        on_exit=on_exit,
     )
 
 

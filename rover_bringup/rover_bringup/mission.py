@@ -20,7 +20,7 @@ from rover_bringup.starts import (
 )
 
 NAMES = (
-    "params_file", "sim", "seed", "sim_rate", "explorer", "host", "port", "namespace",
+    "params_file", "sim", "seed", "sim_rate", "sim_size", "explorer", "host", "port", "namespace",
     "frame_prefix", "use_sim_time", "log_level", "dashboard", "dashboard_port", "record",
     "use_rviz", "robot_model",
 )  # fmt: skip
@@ -53,7 +53,12 @@ def simulator(given: Given, files: tuple[str, ...]) -> Plan:
         return []
     values = numbers(
         given,
-        {"seed": ("seed", int), "sim_rate": ("rate", float), "port": ("port", int)},
+        {
+            "seed": ("seed", int),
+            "sim_rate": ("rate", float),
+            "sim_size": ("size", float),
+            "port": ("port", int),
+        },
     )
     return [Start("rover_simulator", "simulator_node", AtEnd.SHUTDOWN, files, values)]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from rover_bringup.arguments import Given, is_true, problem_of
-from rover_common.errors import RoverError
+from rover_common.errors import CANNOT_START, RoverError
 
 PACKAGE = "rover_bringup"
 # Topics that are one for all robots, unless each has a namespace; relative, each has its own.
@@ -24,9 +24,14 @@ class LaunchError(RoverError, RuntimeError):
 class AtEnd(Enum):
     """What follows when a node ends."""
 
-    RESPAWN = "it is started again"
+    RESPAWN = "it is started again"  # unless it cannot start, see ends_all
     SHUTDOWN = "all other nodes end as well"
     NOTHING = "the others go on"
+
+
+def ends_all(at_end: AtEnd, exit_code: int) -> bool:
+    """Whether the other nodes end as well. One that refuses its parameters would do so for ever."""
+    return at_end is AtEnd.SHUTDOWN or (at_end is AtEnd.RESPAWN and exit_code == CANNOT_START)
 
 
 @dataclass(frozen=True)

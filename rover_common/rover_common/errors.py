@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+CANNOT_START = 78  # exit code of a node that would fail again: EX_CONFIG of sysexits.h
+
 
 class RoverError(Exception):
     """Something that the user or the caller can act on; its text says what is wrong.

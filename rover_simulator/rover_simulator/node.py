@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import threading
+from collections import deque
 from collections.abc import Callable
 from typing import Any
 
@@ -30,6 +31,7 @@ from rover_simulator.wire.unity_client import UnityClient
 ENTITY, WORLD = "rover", "map"  # of the services
 PATIENCE = 5.0  # [s] for the simulation's thread to do what is asked
 STEP_PATIENCE = 60.0  # [s] for frames, which may wait for a server
+TOLD = 3  # messages at a time
 LOOK = 0.5  # [s] of wall time between two looks whether the simulation has ended
 
 
@@ -44,7 +46,8 @@ class SimulatorNode(ManagedNode):
         self._gate = StepGate(closed=True)
         self._ended, self._changed = threading.Event(), threading.Event()
         self._thread: threading.Thread | None = None
-        self._refused = ""  # why the server refuses this client
+        # what the thread has to tell of its connection; the latest of what comes faster than that
+        self._told: deque[str] = deque(maxlen=TOLD)
         self.simulation: Simulation | None = None
         self._diagnostics = NodeDiagnostics(self, {})
         SimulatorControl(self, self, ENTITY, WORLD)
@@ -136,7 +139,10 @@ class SimulatorNode(ManagedNode):
         while not self._is_over():
             self._changed.clear()
             pacing = self._pacing(self.simulation)
-            run_connected(client, pacing, lambda: self._is_over() or self._changed.is_set())
+            run_connected(client, pacing, self._is_interrupted, self._told.append)
+
+    def _is_interrupted(self) -> bool:
+        return self._is_over() or self._changed.is_set()
 
     def _is_over(self) -> bool:
         assert self.simulation is not None
@@ -151,13 +157,12 @@ class SimulatorNode(ManagedNode):
 
     def _on_refused(self, reason: str) -> None:
         """Called in the simulation's thread."""
-        self._refused = reason
+        self._told.append(f"refused by the server: {reason}")
 
     def _look(self) -> None:
         """What the simulation's thread has to tell; the node ends with it."""
-        refused, self._refused = self._refused, ""
-        if refused:
-            self.get_logger().warning(f"refused by the server: {refused}")
+        while self._told:
+            self.get_logger().warning(self._told.popleft())
         simulation = self.simulation
         if simulation is not None:
             self._diagnostics.counts["contacts"] = simulation.contacts

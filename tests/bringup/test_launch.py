@@ -11,7 +11,8 @@ from readme_tables import ROOT
 
 from rover_bringup import heat, mission, navigation, starts
 from rover_bringup.arguments import ARGUMENTS, problem_of
-from rover_bringup.starts import AtEnd, LaunchError, Start, remappings_of
+from rover_bringup.starts import AtEnd, LaunchError, Start, ends_all, remappings_of
+from rover_common.errors import CANNOT_START
 
 CONFIG = ROOT / "rover_bringup" / "config"
 FILES = {
@@ -43,12 +44,13 @@ def planned(module: Any, **values: str) -> dict[str, Start]:
 
 
 def test_one_command_starts_a_rover_that_drives():
-    plan = planned(mission, sim="true", seed="3", explorer="frontier", sim_rate="2", port="5000")
+    plan = planned(mission, sim="true", seed="3", explorer="frontier", sim_rate="2", sim_size="0.5",
+                   port="5000")  # fmt: skip
     assert {each.package for each in plan.values()} == NODES | {
         "rover_simulator",
         "rover_dashboard",
     }
-    assert plan["simulator_node"].values == {"seed": 3, "rate": 2.0, "port": 5000}
+    assert plan["simulator_node"].values == {"seed": 3, "rate": 2.0, "size": 0.5, "port": 5000}
     assert plan["decision_node"].values == {"use_sim_time": True, "explorer": "frontier"}
     assert plan["bridge_node"].values["port"] == 5000
 
@@ -69,6 +71,14 @@ def test_all_ends_with_the_bridge_and_the_simulator_and_what_thinks_is_started_a
     assert ends["perception_node"] is ends["decision_node"] is AtEnd.RESPAWN
     assert planned(heat, sim="true")["burger_node"].at_end is AtEnd.SHUTDOWN
     assert planned(heat)["heat_node"].at_end is AtEnd.RESPAWN
+
+
+def test_a_node_that_refuses_its_parameters_ends_the_launch_and_one_that_crashed_does_not():
+    assert ends_all(AtEnd.RESPAWN, CANNOT_START)
+    assert not ends_all(AtEnd.RESPAWN, 1)
+    assert not ends_all(AtEnd.RESPAWN, -9)
+    assert not ends_all(AtEnd.NOTHING, CANNOT_START)
+    assert ends_all(AtEnd.SHUTDOWN, 0)
 
 
 def test_the_heat_mission_drives_a_simulator_or_a_robot():
@@ -116,7 +126,9 @@ def test_the_robot_model_is_published_where_that_can_be(installed):
         (mission, {"robot_model": "true"}, "needs the package robot_state_publisher"),
         (mission, {"sim": "perhaps"}, "sim:=perhaps is neither true nor false"),
         (mission, {"seed": "three"}, "seed:=three is no whole number"),
+        (mission, {"seed": "-3"}, "seed:=-3 is no whole number from 0"),
         (mission, {"sim_rate": "fast"}, "sim_rate:=fast is no number"),
+        (mission, {"sim_size": "nan"}, "sim_size:=nan is no number"),
         (mission, {"log_level": "loud"}, "log_level:=loud is none of debug"),
         (heat, {"sim_params_file": "/none.yaml", "sim": "true"}, "is no file"),
         (heat, {"use_rviz": "true"}, "needs the package rviz2"),

@@ -7,6 +7,7 @@ import sys
 import pytest
 from rclpy.node import Node
 
+from rover_common.errors import CANNOT_START
 from rover_common.ros.parameters import declare_parameters, unknown_parameters
 from rover_decision.missions.sample_return.config import DecisionConfig
 
@@ -35,7 +36,7 @@ def start(*arguments: str) -> subprocess.CompletedProcess[str]:
 )
 def test_what_a_node_cannot_use_is_one_line(arguments, reason):
     done = start(*arguments)
-    assert done.returncode == 1
+    assert done.returncode == CANNOT_START
     lines = [line for line in done.stderr.splitlines() if not line.startswith("[")]
     assert len(lines) == 1
     assert lines[0].startswith("bridge_node: ")

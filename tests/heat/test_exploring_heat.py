@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -177,6 +178,15 @@ def test_when_nothing_is_left_it_delivers_what_is_known():
     driven.arrive()
     driven.plan = explored_plan()
     driven.until_state(State.GOAL_NAVIGATION, 6.0)
+
+
+def test_the_explored_share_stays_where_no_wall_is_in_reach():
+    driven = exploring()
+    driven.plan = replace(explored_plan(), explored=0.75, goals=(GOAL,))
+    driven.ticks(3.0)
+    driven.plan = replace(explored_plan(), explored=math.nan, goals=(GOAL,))
+    decisions = driven.ticks(3.0)
+    assert {decision.progress.explored for decision in decisions} == {0.75}
 
 
 def test_what_has_failed_is_tried_once_more_before_it_is_over():

@@ -193,6 +193,7 @@ def test_a_robot_on_unknown_ground_gets_no_plan():
     found = HeatPlanner(CONFIG).plan(HeatPlanRequest(0, grid, Pose(1.0, 1.0, 0.0)))
     assert not found.placed
     assert found.goals == ()
+    assert math.isnan(found.explored)
 
 
 def test_the_same_request_gives_the_same_plan():

@@ -20,7 +20,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from rover_common.errors import RoverError
+from rover_common.errors import CANNOT_START, RoverError
 from rover_common.ros.fast_dds import use_profiles
 from rover_common.ros.parameters import unknown_parameters
 from rover_common.ros.shared_memory import remove_stale_memory
@@ -86,11 +86,12 @@ class StopSignals:
 
 @contextmanager
 def start_errors() -> Iterator[None]:
-    """Parameters, files and arguments that cannot be used end the process with one line."""
+    """What cannot be used ends the process with one line, and with an exit code that says so."""
     try:
         yield
     except (RoverError, ParameterException, OSError) as error:
-        sys.exit(f"{Path(sys.argv[0]).name}: {' '.join(str(error).split())}")
+        print(f"{Path(sys.argv[0]).name}: {' '.join(str(error).split())}", file=sys.stderr)
+        sys.exit(CANNOT_START)
 
 
 def run_node(

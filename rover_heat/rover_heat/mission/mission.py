@@ -35,6 +35,7 @@ class HeatMission:
         self._parts = HeatParts.of(config, navigator)
         self._states = make_states(self._parts)
         self._plan: HeatPlan | None = None
+        self._explored = 0.0  # of the last plan that knows
         self._failure = ""  # why it has failed
 
     @property
@@ -168,10 +169,11 @@ class HeatMission:
     def _progress(self, tick: HeatTick) -> HeatProgress:
         parts = self._parts
         begun = tick.time if parts.begun is None else parts.begun
-        explored = 0.0 if self._plan is None else self._plan.explored
+        if self._plan is not None and math.isfinite(self._plan.explored):
+            self._explored = self._plan.explored
         return HeatProgress(
             elapsed=tick.time - begun,
-            explored=explored if math.isfinite(explored) else 0.0,
+            explored=self._explored,
             sources_known=len(parts.sources.sources),
             sources_delivered=parts.sources.delivered,
             payloads=parts.agenda.payloads,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -85,4 +87,4 @@ def _reachable(faces: Faces, sights: Sights) -> NDArray[np.bool_]:
 def _explored(faces: Faces, sights: Sights) -> float:
     reachable = _reachable(faces, sights) | faces.examined
     count = int(np.count_nonzero(reachable))
-    return float(np.count_nonzero(faces.examined)) / count if count else 0.0
+    return float(np.count_nonzero(faces.examined)) / count if count else math.nan

@@ -99,4 +99,4 @@ class HeatPlan:
     frontiers: Points = field(default_factory=lambda: NO_POINTS)  # (n, 2) [m] middles
     faces: Points = field(default_factory=lambda: NO_POINTS)  # (n, 2) [m] examined
     open_faces: Points = field(default_factory=lambda: NO_POINTS)  # (n, 2) [m] not yet
-    explored: float = 0.0  # 0..1 of the reachable faces
+    explored: float = float("nan")  # 0..1 of the reachable faces; nan where none is, as on a ramp

@@ -21,6 +21,7 @@ POLL_PERIOD = 0.5  # [s] within which an end without an event is noticed
 HELD_PERIOD = 0.02  # [s] between two looks whether a frame may be made that is held up
 
 Ended = Callable[[], bool]
+Tell = Callable[[str], None]
 
 
 class Pacing(Protocol):
@@ -33,20 +34,30 @@ class Pacing(Protocol):
         """Called often while there is no connection."""
 
 
-def run_connected(client: UnityClient, pacing: Pacing, ended: Ended) -> None:
-    """Connect, and connect again whenever the connection is lost, until the end."""
-    while _connect(client, pacing, ended):
+def print_error(text: str) -> None:
+    """As the command line tells it."""
+    print(f"rover sim: {text}", file=sys.stderr)
+
+
+def run_connected(
+    client: UnityClient, pacing: Pacing, ended: Ended, tell: Tell = print_error
+) -> None:
+    """Connect, and connect again whenever the connection is lost, until the end.
+
+    tell: what happens to the connection, in the thread of the caller.
+    """
+    while _connect(client, pacing, ended, tell):
         try:
             pacing.run(client, ended)
         except (ConnectionLostError, ProtocolError) as error:
             client.close()
-            print(f"rover sim: {error}; connecting again", file=sys.stderr)
+            tell(f"{str(error).rstrip('.')}; connecting again")
         else:
             client.close(graceful=True)
             return
 
 
-def _connect(client: UnityClient, pacing: Pacing, ended: Ended) -> bool:
+def _connect(client: UnityClient, pacing: Pacing, ended: Ended, tell: Tell) -> bool:
     """Whether it was connected before the end; says once that there is no server yet."""
     told = False
 
@@ -54,7 +65,7 @@ def _connect(client: UnityClient, pacing: Pacing, ended: Ended) -> bool:
         nonlocal told
         if not told and not client.refused:  # it is told otherwise
             told = True
-            print(f"rover sim: no server on {client.address}; waiting for one", file=sys.stderr)
+            tell(f"no server on {client.address}; waiting for one")
         pacing.while_disconnected()
 
     return client.connect_until(ended, wait)
