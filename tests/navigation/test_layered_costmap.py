@@ -83,14 +83,15 @@ def test_another_map_or_trail_begins_anew():
 
 
 def test_a_plan_that_fails_leaves_nothing_behind(monkeypatch):
-    first, second, third = list(requests(17, 3))
+    first, *failing, last = requests(17, 20)
     planner = Planner(SCALE, WholeTour(SCALE))
     planner.plan(first)
     with monkeypatch.context() as patch:
         patch.setattr(module, "walls_of", None)
-        with pytest.raises(TypeError):
-            planner.plan(second)
-    assert same(planner.plan(third), Planner(SCALE, WholeTour(SCALE)).plan(third))
+        for made in failing:
+            with pytest.raises(TypeError):
+                planner.plan(made)
+    assert same(planner.plan(last), Planner(SCALE, WholeTour(SCALE)).plan(last))
 
 
 def test_beyond_the_limit_clearance_makes_no_path_faster():
