@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from rover_navigation.costmap import Costmap
+from rover_navigation.run_length import RunLengthRegions, labels_of_cells
 from rover_navigation.scale import Scale
 
 # of an unknown patch amid known ground: the rest of it is the obstacle that hid it
 PATCH_SHARE = 0.5
+REACH = 3  # [cells]
 SQUARE = np.ones((3, 3), np.uint8)
 
 
@@ -44,49 +46,63 @@ class Frontier:
         return min(patch, self.length * self.resolution * scale.strip_depth)
 
 
+class Borders(NamedTuple):
+    """Where a frontier may be, (rows, cols) each; a cell depends on those REACH around it."""
+
+    unknown: NDArray[np.uint8]  # but slivers of less than three cells, which are grazed walls
+    border: NDArray[np.bool_]  # free cells beside these
+    beside_nothing: NDArray[np.bool_]  # beside unknown cells that are not edges seen from afar
+
+    @classmethod
+    def of(cls, costmap: Costmap) -> Borders:
+        unknown = np.asarray(
+            cv2.morphologyEx(costmap.unknown.view(np.uint8), cv2.MORPH_OPEN, SQUARE), np.uint8
+        )
+        nothing = (costmap.unknown & ~costmap.edge).view(np.uint8)
+        border = costmap.free & cv2.dilate(unknown, SQUARE).view(bool)
+        return cls(unknown, border, cv2.dilate(nothing, SQUARE).view(bool))
+
+    def part(self, cells: tuple[slice, slice]) -> Borders:
+        """Some of the cells, as views."""
+        return Borders(self.unknown[cells], self.border[cells], self.beside_nothing[cells])
+
+
 def find_frontiers(
-    costmap: Costmap, blacklisted: NDArray[np.float64], scale: Scale
+    costmap: Costmap,
+    blacklisted: NDArray[np.float64],
+    scale: Scale,
+    borders: Borders | None = None,
 ) -> list[Frontier]:
     """All borders of some length, the longest first; `blacklisted` (n, 3) as for in_discs.
 
-    No passage is as narrow as a shorter border, and what it hides is not worth the time.
+    No passage is as narrow as a shorter border, and what it hides is not worth the time. `borders`:
+    those of the costmap, where they are known.
     """
-    # Unknown slivers of less than three cells vanish: they are grazed walls.
-    unknown = np.asarray(
-        cv2.morphologyEx(costmap.unknown.astype(np.uint8), cv2.MORPH_OPEN, SQUARE), np.uint8
-    )
-    border = costmap.free & (cv2.dilate(unknown, SQUARE) > 0)
-    rows, cols = np.nonzero(border)
-    border[rows, cols] = ~in_discs(*costmap.geometry.center_of(rows, cols), blacklisted)
-    labels, count = ndimage.label(border, structure=SQUARE)
-    if count == 0:
-        return []
+    unknown, border, beside_nothing = borders or Borders.of(costmap)
     resolution = costmap.geometry.resolution
-    rows, cols = np.nonzero(border)
-    label = labels[rows, cols]
-    sizes = np.bincount(label, minlength=count + 1)
-    large = sizes[label] >= scale.frontier_length / resolution
-    rows, cols, label = rows[large], cols[large], label[large]
-    order = np.argsort(label, kind="stable")
-    rows, cols, label = rows[order], cols[order], label[order]
-    ends = np.flatnonzero(np.diff(label)) + 1
-    nothing = (costmap.unknown & ~costmap.edge).astype(np.uint8)
-    is_open = cv2.dilate(nothing, SQUARE)[rows, cols] > 0
-    area = cv2.dilate(_areas(unknown, resolution), SQUARE)[rows, cols]
-    columns = (*costmap.geometry.center_of(rows, cols), is_open, area)
+    rows, cols = np.divmod(np.flatnonzero(border), border.shape[1])
+    wanted = ~in_discs(*costmap.geometry.center_of(rows, cols), blacklisted)
+    rows, cols = rows[wanted], cols[wanted]
+    label = labels_of_cells(rows, cols)
+    large = np.bincount(label)[label] >= scale.frontier_length / resolution
+    order = np.flatnonzero(large)[np.argsort(label[large], kind="stable")]
+    if len(order) == 0:
+        return []
+    rows, cols, ends = rows[order], cols[order], np.flatnonzero(np.diff(label[order])) + 1
+    area = _areas_beside(unknown, rows, cols) * np.float32(resolution**2)
+    columns = (*costmap.geometry.center_of(rows, cols), beside_nothing[rows, cols], area)
     parts = zip(*(np.split(column, ends) for column in columns), strict=True)
-    frontiers = [Frontier(resolution, *part) for part in parts if len(part[0])]
+    frontiers = [Frontier(resolution, *part) for part in parts]
     return sorted(frontiers, key=lambda frontier: -frontier.length)
 
 
-def _areas(unknown: NDArray[np.uint8], resolution: float) -> NDArray[np.float32]:
-    """For each unknown cell the area [m^2] of its connected region, inf at the map's border."""
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(unknown, connectivity=4)
-    areas = stats[:, cv2.CC_STAT_AREA].astype(np.float32) * np.float32(resolution**2)
-    for edge in (labels[0], labels[-1], labels[:, 0], labels[:, -1]):
-        areas[edge] = np.inf
-    areas[0] = 0.0
-    return np.asarray(areas[labels])
+def _areas_beside(
+    unknown: NDArray[np.uint8], rows: NDArray[np.intp], cols: NDArray[np.intp]
+) -> NDArray[np.float32]:
+    """For each cell (n,) the largest region of unknown cells that touches it [cells]."""
+    regions = RunLengthRegions(unknown)
+    steps = [(down, right) for down in (-1, 0, 1) for right in (-1, 0, 1)]
+    return np.max([regions.sizes_at(rows + down, cols + right) for down, right in steps], axis=0)
 
 
 def in_discs(

@@ -15,7 +15,8 @@ from scipy.sparse import csr_array
 Offset = tuple[int, int]  # rows down, columns right
 # Half of the directions, with the cells in between that must be passable too; the other half by
 # symmetry.
-EIGHT: Mapping[Offset, tuple[Offset, ...]] = {(0, 1): (), (1, 0): (), (1, 1): (), (1, -1): ()}
+Links = Mapping[Offset, tuple[Offset, ...]]
+EIGHT: Links = {(0, 1): (), (1, 0): (), (1, 1): (), (1, -1): ()}
 
 
 def node_numbers(passable: NDArray[np.bool_]) -> NDArray[np.int32]:
@@ -25,35 +26,65 @@ def node_numbers(passable: NDArray[np.bool_]) -> NDArray[np.int32]:
     return numbers
 
 
-def grid_graph(
+def step_costs(
     passable: NDArray[np.bool_],
     pace: NDArray[np.floating],
     cell: float,
-    links: Mapping[Offset, tuple[Offset, ...]] = EIGHT,
-) -> csr_array:
-    """Symmetric costs (nodes, nodes) of the steps from each passable cell to its neighbours.
+    links: Links = EIGHT,
+) -> NDArray[np.floating]:
+    """Costs (rows, cols, directions) of the steps from each cell, inf where one is closed.
 
     `pace` (rows, cols) is what a metre costs in each cell, `cell` [m] the size of one; a step costs
-    its length times the mean pace of both ends.
+    its length times the mean pace of both ends. A cell's costs depend on the cells around it only.
     """
-    numbers = node_numbers(passable)
-    starts, ends, costs = [], [], []
-    for offset, between in links.items():
+    index = {direction: number for number, direction in enumerate(_directions(links))}
+    steps = np.full((*passable.shape, len(index)), np.inf, pace.dtype)
+    for (down, right), between in links.items():
         here, there, *crossed = (
-            _window(passable.shape, offset, at) for at in ((0, 0), offset, *between)
+            _window(passable.shape, (down, right), at) for at in ((0, 0), (down, right), *between)
         )
         open_ = passable[here] & passable[there]
         for window in crossed:
             open_ &= passable[window]
-        length = cell * float(np.hypot(*offset))
-        starts.append(numbers[here][open_])
-        ends.append(numbers[there][open_])
-        costs.append(0.5 * length * (pace[here] + pace[there])[open_])
-    start, end = np.concatenate(starts), np.concatenate(ends)
-    cost = np.concatenate(costs).astype(np.float64)  # as SciPy's shortest paths want it
-    count = int(np.count_nonzero(passable))
-    both = (np.concatenate([start, end]), np.concatenate([end, start]))
-    return csr_array((np.concatenate([cost, cost]), both), shape=(count, count))
+        length = cell * float(np.hypot(down, right))
+        cost = np.where(open_, 0.5 * length * (pace[here] + pace[there]), np.inf)
+        steps[here][..., index[down, right]] = cost
+        steps[there][..., index[-down, -right]] = cost
+    return steps
+
+
+def graph_of_steps(
+    numbers: NDArray[np.int32], steps: NDArray[np.floating], links: Links = EIGHT
+) -> csr_array:
+    """Costs (nodes, nodes), given what `node_numbers` and `step_costs` say of each cell."""
+    directions = np.array(_directions(links))
+    reach = int(np.abs(directions).max())
+    padded = np.pad(numbers, reach, constant_values=-1)
+    shifts = directions @ (padded.shape[1], 1)
+    rows, cols = np.divmod(np.flatnonzero(numbers >= 0), numbers.shape[1])
+    cost = steps[rows, cols]
+    open_ = np.isfinite(cost)
+    cell = (rows + reach) * padded.shape[1] + cols + reach
+    near = padded.ravel()[cell[:, None] + shifts][open_]
+    ends = np.concatenate([[0], np.cumsum(open_.sum(axis=1))]).astype(np.int32)
+    # SciPy's shortest paths want doubles.
+    return csr_array((cost[open_].astype(np.float64), near, ends), shape=(len(rows), len(rows)))
+
+
+def grid_graph(
+    passable: NDArray[np.bool_],
+    pace: NDArray[np.floating],
+    cell: float,
+    links: Links = EIGHT,
+) -> csr_array:
+    """Symmetric costs (nodes, nodes) of the steps from each passable cell to its neighbours."""
+    steps = step_costs(passable, pace, cell, links)
+    return graph_of_steps(node_numbers(passable), steps, links)
+
+
+def _directions(links: Links) -> list[Offset]:
+    """Of the links both ways, in the order of the cells that they lead to."""
+    return sorted([*links, *((-down, -right) for down, right in links)])
 
 
 def _window(shape: tuple[int, ...], offset: Offset, at: Offset) -> tuple[slice, slice]:

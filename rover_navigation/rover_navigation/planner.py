@@ -15,6 +15,7 @@ from rover_navigation.coverage import unsearched_cells
 from rover_navigation.frontiers import Frontier, find_frontiers, in_discs
 from rover_navigation.mapped_share import mapped_share
 from rover_navigation.path_smoothing import smooth_path
+from rover_navigation.plan_layers import PlanLayers
 from rover_navigation.region import Region
 from rover_navigation.roadmap import Roadmap, ShortestPaths
 from rover_navigation.scale import Scale
@@ -46,7 +47,7 @@ class _Site:
 
 
 class Planner:
-    """Stateless: the same request gives the same plan."""
+    """The same request gives the same plan, whatever was planned before."""
 
     def __init__(
         self, scale: Scale, selection: Selection, truth: NDArray[np.bool_] | None = None
@@ -58,15 +59,25 @@ class Planner:
         self._truth = truth
         self._scale = scale
         self._selection = selection
+        self._layers: PlanLayers | None = None  # those of the last plan, to go on with
 
     def plan(self, request: PlanRequest) -> Plan:
         """The plan for a request; its goal is None when nothing is left to do out there."""
+        # Each plan owns the layers while it is made: one that fails, or that hangs in a thread that
+        # was given up, leaves none, and the next plan begins with new ones.
+        layers, self._layers = self._layers or PlanLayers(self._scale), None
+        plan = self._plan(request, layers)
+        self._layers = layers
+        return plan
+
+    def _plan(self, request: PlanRequest, layers: PlanLayers) -> Plan:
         body = (request.pose.x, request.pose.y)
-        costmap = Costmap.of(request.grid, request.trail, body, self._scale, request.blocked)
-        frontiers = find_frontiers(costmap, request.blacklisted, self._scale)
+        layers.update(request)
+        costmap = layers.costmap
+        frontiers = find_frontiers(costmap, request.blacklisted, self._scale, layers.borders)
         centers = _centers(frontiers)
         explored = self._explored(request.grid, costmap, frontiers)
-        roadmap = Roadmap(costmap, self._scale)
+        roadmap = layers.roadmap
         everywhere = Region.everywhere(roadmap, self._scale.wide_reach)
         start = everywhere.node_at(body, self._scale.body_reach)
         if start < 0:
@@ -74,7 +85,8 @@ class Planner:
                 request.stamp, None, NO_PATH, NO_PATH, math.inf, centers, explored, placed=False
             )
         paths = roadmap.shortest_paths([start])
-        reachable = Region(roadmap, np.isfinite(paths.seconds[0]), self._scale.wide_reach)
+        there = np.isfinite(paths.seconds[0])
+        reachable = Region(roadmap, there, self._scale.wide_reach, layers.nearest)
         site = _Site(costmap, roadmap, paths, reachable)
         home = reachable.node_at(request.home, self._scale.body_reach)
         goal, path = self._next_goal(request, site, frontiers, home)

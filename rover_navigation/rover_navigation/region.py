@@ -8,17 +8,55 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from rover_common.cell_region import CellRegion
 from rover_navigation.roadmap import Roadmap
+
+
+class NearestCells:
+    """For each cell of a mask the nearest true cell, computed anew where the mask has changed."""
+
+    def __init__(self, reach: int) -> None:
+        """reach: [cells] beyond which a cell counts for none."""
+        self._reach = reach
+        self._mask = np.zeros((0, 0), bool)
+        self._nearest = np.zeros((2, 0, 0), np.int32)
+
+    def of(self, mask: NDArray[np.bool_]) -> NDArray[np.int32]:
+        """Row and column (2, rows, cols), of any cell where no true one is within reach."""
+        if mask.shape != self._mask.shape:
+            self._mask = np.zeros_like(mask)
+            self._nearest = np.zeros((2, *mask.shape), np.int32)
+        changed = CellRegion.of_true(mask != self._mask)
+        self._mask = mask
+        if changed is not None:
+            region = changed.grown(self._reach, mask.shape)
+            around = region.grown(self._reach, mask.shape)
+            nearest = _nearest_true(mask[around.slices])
+            nearest[0] += around.row_start
+            nearest[1] += around.col_start
+            self._nearest[:, *region.slices] = nearest[:, *region.slices_in(around)]
+        return self._nearest
 
 
 class Region:
     """Some nodes of a roadmap, such as those that can be driven to."""
 
-    def __init__(self, roadmap: Roadmap, members: NDArray[np.bool_], wide_reach: float) -> None:
-        """members (nodes,); wide_reach [m] to a wide place, beyond which a narrow one does."""
+    def __init__(
+        self,
+        roadmap: Roadmap,
+        members: NDArray[np.bool_],
+        wide_reach: float,
+        nearest: tuple[NearestCells, NearestCells] | None = None,
+    ) -> None:
+        """members (nodes,); wide_reach [m] to a wide place, beyond which a narrow one does.
+
+        nearest: those of such a region before, and of its wide places.
+        """
         self._roadmap = roadmap
         self._members = members
         self._wide_reach = wide_reach
+        everywhere = max(roadmap.drivable.shape)
+        self._nearest_cells = nearest or (NearestCells(everywhere), NearestCells(everywhere))
         self._cells = np.zeros_like(roadmap.drivable)
         self._cells[roadmap.drivable] = members
 
@@ -63,11 +101,11 @@ class Region:
 
     @cached_property
     def _nearest(self) -> NDArray[np.int32]:
-        return _nearest_true(self._cells)
+        return self._nearest_cells[0].of(self._cells)
 
     @cached_property
     def _nearest_wide(self) -> NDArray[np.int32]:
-        return _nearest_true(self._cells & self._roadmap.wide)
+        return self._nearest_cells[1].of(self._cells & self._roadmap.wide)
 
 
 def _nearest_true(mask: NDArray[np.bool_]) -> NDArray[np.int32]:

@@ -94,3 +94,8 @@ class Scale:
     def inflation(self) -> float:
         """[m] from obstacles, beyond which more clearance makes the robot no faster."""
         return self.travel_speed_max / self.travel_speed_per_clearance
+
+    @property
+    def clearance_limit(self) -> float:
+        """[m] from obstacles, beyond which more clearance changes neither times nor paths."""
+        return max(self.inflation, self.path_clearance + self.smoothing_max)

@@ -84,9 +84,11 @@ class WholeTour:
             return None
         nodes = [stop.node for stop in stops]
         first = _seconds_to(request.pose, roadmap, paths, stops, self._scale)
-        between = roadmap.seconds_between(nodes, paths.seconds[0, nodes])
-        # The way home takes as long as the way from home, so that one search serves all stops.
-        last = roadmap.seconds_from([home])[0, nodes] if home >= 0 else np.zeros(len(stops))
+        ends = [home] if home >= 0 else []
+        between = roadmap.seconds_between(paths, nodes + ends)
+        # The way home takes as long as the way from home.
+        last = between[: len(nodes), -1] if home >= 0 else np.zeros(len(stops))
+        between = between[: len(nodes), : len(nodes)]
         worth = np.array([stop.worth for stop in stops])
         cost = tour_costs(first, between, last, worth)
         at_once = float(paths.seconds[0, home]) if home >= 0 else 0.0

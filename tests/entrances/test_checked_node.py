@@ -141,6 +141,27 @@ def test_a_failure_of_the_node_itself_is_counted_and_the_next_message_is_taken(l
     assert not listener.counts
 
 
+def test_a_timer_that_fails_is_counted_told_once_and_called_again(ros):
+    calls: list[int] = []
+
+    def _look_around() -> None:
+        calls.append(len(calls))
+        if len(calls) % 2:
+            raise IndexError("a defect")
+
+    listener, talker = ros.add(Listener), ros.add(lambda **kwargs: Node("talker", **kwargs))
+    lines: list[Log] = []
+    talker.create_subscription(Log, "/rosout", lines.append, QoSProfile(depth=100))
+    ros.spin_until(lambda: talker.count_publishers("/rosout") > 1)
+    timer = listener.create_timer(0.01, _look_around)
+    assert ros.spin_until(lambda: len(calls) > 4 and any("defect" in line.msg for line in lines))
+    listener.destroy_timer(timer)
+    assert listener.counts.pop("failed_look_around") == (len(calls) + 1) // 2
+    (told,) = [line.msg for line in lines if "look_around" in line.msg]
+    assert told.startswith("look_around: failed:")
+    assert "IndexError: a defect" in told
+
+
 def test_a_type_without_a_check_cannot_be_subscribed(listener):
     with pytest.raises(KeyError):
         listener.create_subscription(Polygon, "shape", listener.heard.append, qos.SENSOR)

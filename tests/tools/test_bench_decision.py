@@ -15,7 +15,8 @@ from rover_perception.config import PerceptionConfig
 from rover_simulator.simulation import START_TIME, Simulation
 from rover_simulator.world.generator import generate_world
 from rover_tools.benchmarks import decision
-from rover_tools.benchmarks.decision import COLUMNS, Costs, Stopwatch, timed_core
+from rover_tools.benchmarks.costs import COLUMNS, Costs, Stopwatch
+from rover_tools.benchmarks.decision import timed_core
 from rover_tools.cli.main import main
 from rover_tools.evaluation.closed_loop import Loop
 
@@ -59,10 +60,13 @@ def test_the_table_is_for_people(printed_and_written):
 
 
 def test_json_is_what_is_written(monkeypatch, tmp_path, capsys):
-    def run(world: object, strategy: object, fps: float, limit: float, costs: Costs) -> dict:
+    def run(
+        world: object, strategy: object, fps: float, limit: float, costs: Costs, drive_on: bool
+    ) -> dict:
         with costs.frames.lap(), costs.plans.lap():
             pass
-        return dict.fromkeys(("world", "strategy", "done", "time", "frames", "plans"), 1)
+        row = dict.fromkeys(("world", "strategy", "done", "time", "frames", "plans"), 1)
+        return {**row, "growth": None}
 
     monkeypatch.setattr(decision, "_run", run)
     assert main([*SMALL, "--json", "--out", str(tmp_path)]) == 0
@@ -81,6 +85,30 @@ def test_a_timed_mission_is_the_same_mission():
     assert made[0] == made[1]
     assert len(made[0]) > SECONDS * 12
     assert len(costs.frames.laps) == len(made[0]) + 2  # two before the first step
+
+
+def test_a_long_drive_lasts_and_has_its_costs_by_spans(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(decision, "SPAN", 2.0)
+    long = ["bench", "decision", "--long", "--seeds", "2", "--size", "0.3", "--time-limit", "13"]
+    assert main([*long, "--out", str(tmp_path)]) == 0
+    (row,) = json.loads((tmp_path / "result.json").read_text())["missions"]
+    by_span = row["frame_ms_by_100_s"]
+    assert len(by_span) == 6
+    assert min(by_span) > 0
+    assert row["growth"] == pytest.approx(sum(by_span[-3:]) / sum(by_span[:3]), abs=0.01)
+    assert not row["done"]
+    assert "the last 3 are" in capsys.readouterr().out
+
+
+def test_the_costs_of_a_span_are_those_of_its_frames_and_plans():
+    costs = Costs()
+    costs.frames.laps = [(0.0, 0.001)] * 4
+    costs.plans.laps = [(0.0, 0.010)]
+    costs.mark_span()
+    costs.frames.laps += [(0.0, 0.002)] * 2
+    costs.plans.laps += [(0.0, 0.020)] * 2
+    costs.mark_span()
+    assert costs.frame_ms_by_span() == [1.0 + 10 / 4, 2.0 + 20.0]
 
 
 def test_waiting_counts_by_the_wall_clock_only():

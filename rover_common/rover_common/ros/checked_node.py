@@ -1,4 +1,4 @@
-"""A node that no message ends, and that believes none unchecked."""
+"""A node that no message and no timer ends, and that believes no message unchecked."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ import time
 import traceback
 from collections import Counter
 from collections.abc import Callable, Mapping
+from functools import wraps
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
+from rclpy.timer import Timer
 
 from rover_common.ros.message_checks import CHECKS, parts_of
 from rover_common.ros.message_errors import FrameError, MessageError, StampError
@@ -24,8 +26,9 @@ class CheckedNode(Node):
     """Every subscription of it, also one that rclpy makes itself, has an `Entrance`.
 
     `counts` holds `refused_<topic>_<cause>` of messages that cannot be used, and `failed_<topic>`
-    of those that the node failed to handle, which is a defect of the node. `on_refused` is called
-    with the topic of a message that is refused, and why.
+    of those that the node failed to handle, which is a defect of the node, as `failed_<timer>` is:
+    the name of the timer's callback, without the underscore. `on_refused` is called with the topic
+    of a message that is refused, and why.
     """
 
     def __init__(self, name: str, **kwargs: Any) -> None:
@@ -60,6 +63,27 @@ class CheckedNode(Node):
             msg_type, topic, entrance, qos_profile, raw=raw, **options
         )
 
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[..., Any],
+        *arguments: Any,
+        **options: Any,
+    ) -> Timer:
+        """As rclpy's."""
+        name = getattr(callback, "__name__", type(callback).__name__).strip("_")
+
+        @wraps(callback)
+        def guarded(*given: Any, **keywords: Any) -> None:
+            try:
+                callback(*given, **keywords)
+            except Exception:
+                if not self.context.ok():  # the race with the shutdown
+                    raise
+                self.fail(name)
+
+        return super().create_timer(timer_period_sec, guarded, *arguments, **options)
+
     def check_against_node(self, topic: str, message: Any) -> None:
         """What depends on the node: its clock, and the frame that it expects."""
         header = getattr(message, "header", None)
@@ -83,7 +107,7 @@ class CheckedNode(Node):
             self.get_logger().warning(text)
 
     def fail(self, topic: str) -> None:
-        """Count the exception at hand, and tell where it comes from."""
+        """Count the exception at hand, of a topic or a timer, and tell where it comes from."""
         key = f"failed_{topic.lstrip('/')}"
         self.counts[key] += 1
         if self._may_say(key):

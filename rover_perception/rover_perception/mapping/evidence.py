@@ -14,11 +14,11 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.cell_region import CellRegion
 from rover_common.geometry import Pose
 from rover_perception.camera.ground_projection import GroundProjection
 from rover_perception.camera.segmentation import GroundColumns
 from rover_perception.mapping.field_of_view import NEAREST, FieldOfView
-from rover_perception.mapping.region import Region
 
 EDGE_ERROR = 0.5  # [px] of the row where the ground ends: half a row
 FLOOR_ERROR = 0.03  # [m] height of ground that is still bright: the first 0.2 m of a wall's base
@@ -48,7 +48,7 @@ class EvidenceGrid:
         # the same, of bases too coarse in the image to tell on which side of the edge a cell lies
         self.edge_observations = np.zeros(shape, np.float32)
         self._field_of_view = field_of_view
-        self._changed: Region | None = None
+        self._changed: CellRegion | None = None
 
     def add(
         self, projection: GroundProjection, columns: GroundColumns, pose: Pose
@@ -92,7 +92,7 @@ class EvidenceGrid:
             raise ValueError(f"evidence of another grid than {self.free.shape}")
         for plane, values in zip(self._planes, evidence, strict=True):
             plane.reshape(-1)[cells] = values
-        self._changed = Region.of_grid(self.geometry)
+        self._changed = CellRegion.of_grid(self.geometry)
 
     @property
     def _planes(self) -> tuple[NDArray[np.float32], ...]:
@@ -104,14 +104,14 @@ class EvidenceGrid:
             self.edge_observations,
         )
 
-    def take_changed(self) -> Region | None:
+    def take_changed(self) -> CellRegion | None:
         """The cells that may have changed since the call before; None if there are none."""
         changed, self._changed = self._changed, None
         return changed
 
     def _mark_changed(self, pose: Pose) -> None:
         row, col = map(int, self.geometry.cell_of(pose.x, pose.y))
-        region = Region.around(row, col, self._field_of_view.reach, self.geometry)
+        region = CellRegion.around(row, col, self._field_of_view.reach, self.geometry)
         self._changed = region if self._changed is None else self._changed.union(region)
 
     def _add_free(self, cell: NDArray, margin: NDArray, squared_distance: NDArray) -> None:

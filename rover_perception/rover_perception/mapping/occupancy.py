@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rover_common.cell_region import CellRegion
 from rover_common.map_encoding import EDGE, FREE_SHARE, UNKNOWN
 from rover_common.types import GridMap
 from rover_perception.mapping.evidence import EvidenceGrid
-from rover_perception.mapping.region import Region
 
 ENOUGH = 0.5  # certain observations; with less, a cell is more likely unobserved than observed
 
@@ -62,11 +62,11 @@ class OccupancyMaps:
 
 def free_shares(evidence: EvidenceGrid, resolution: float) -> NDArray[np.floating]:
     """The share (rows, cols) of each cell of a resolution [m] that is free."""
-    is_free, _, _ = _masks_in(evidence, Region.of_grid(evidence.geometry))
+    is_free, _, _ = _masks_in(evidence, CellRegion.of_grid(evidence.geometry))
     return _share(is_free, round(resolution / evidence.geometry.resolution))
 
 
-def _masks_in(evidence: EvidenceGrid, region: Region) -> Masks:
+def _masks_in(evidence: EvidenceGrid, region: CellRegion) -> Masks:
     """Which cells of a region are free, are blocked, or are an edge observed from afar."""
     free_observations = evidence.free_observations[region.slices]
     base_observations = evidence.base_observations[region.slices]

@@ -4,14 +4,16 @@ Whole missions in one process without ROS. Plans are made in their thread as alw
 waits for each before it goes on, so that no plan is timed while the simulator and perception take
 the interpreter from it. `wall` is what a frame or a plan had to wait, `thread` what its thread
 worked: on a busy machine the former counts other programs as well.
+
+A long drive is a mission that searches for a sample which is not there, until its time is over: it
+shows whether the costs grow with the map.
 """
 
 from __future__ import annotations
 
-import threading
-import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -28,47 +30,17 @@ from rover_navigation.types import Plan, PlanRequest
 from rover_simulator.options import WorldOptions
 from rover_simulator.run import frame_steps_of
 from rover_simulator.simulation import START_TIME, Simulation
+from rover_tools.benchmarks.costs import COLUMNS, Costs
 from rover_tools.evaluation.closed_loop import Loop
 from rover_tools.evaluation.results import Result
 from rover_tools.evaluation.strategy import Strategy
 from rover_tools.output import note, print_result, result_folder, write_result
 
 PLAN_LIMIT = 50.0  # [ms] within which a plan should be made
-COLUMNS = {"median": 50, "p99": 99, "max": 100}  # percentiles
-
-
-class Stopwatch:
-    """Times of something that is done again and again."""
-
-    def __init__(self) -> None:
-        self.laps: list[tuple[float, float]] = []  # [s] wall, thread
-
-    @contextmanager
-    def lap(self) -> Iterator[None]:
-        """Time what is done inside."""
-        wall, thread = time.perf_counter(), time.thread_time()
-        try:
-            yield
-        finally:
-            self.laps.append((time.perf_counter() - wall, time.thread_time() - thread))
-
-    def result(self, name: str) -> Result:
-        """Percentiles [ms]."""
-        times = np.array(self.laps) * 1000.0
-        return {
-            f"{name}{clock}_ms_{column}": round(float(np.percentile(times[:, index], percent)), 3)
-            for index, clock in enumerate(("", "_thread"))
-            for column, percent in COLUMNS.items()
-        }
-
-
-class Costs:
-    """Of all missions."""
-
-    def __init__(self) -> None:
-        self.frames, self.plans = Stopwatch(), Stopwatch()
-        self.planned = threading.Event()  # unset from the request of a plan until it is made
-        self.planned.set()
+SPAN = 100.0  # [s] of a mission, over which costs are averaged
+COMPARED = 3  # spans at the beginning and at the end of a long drive
+# [m] In a corner of the world, behind the canyon's walls: nothing can see a sample there.
+OUT_OF_SIGHT = (1.0, 1.0)
 
 
 def timed_core(config: DecisionConfig, costs: Costs) -> DecisionCore:
@@ -108,14 +80,21 @@ def bench(
     time_limit: float,
     out: Path | None,
     as_json: bool,
+    drive_on: bool = False,
 ) -> None:
-    """Run one mission in each world; write and print the costs of all of them together."""
+    """Run one mission in each world; write and print the costs of all of them together.
+
+    drive_on: long drives instead, for as long as the time limit says.
+    """
     cv2.setNumThreads(1)
     folder = result_folder("bench-decision", out)
     costs = Costs()
     missions = []
     for world in worlds:
-        missions.append(_run(world, strategy or Strategy(), fps, time_limit, costs))
+        own = Costs()
+        missions.append(_run(world, strategy or Strategy(), fps, time_limit, own, drive_on))
+        costs.frames.laps += own.frames.laps
+        costs.plans.laps += own.plans.laps
         note(_line(missions[-1]))
     result = {**summary_of(costs), "missions": missions}
     write_result(folder, result)
@@ -124,28 +103,55 @@ def bench(
 
 
 def _run(
-    options: WorldOptions, strategy: Strategy, fps: float, time_limit: float, costs: Costs
+    options: WorldOptions,
+    strategy: Strategy,
+    fps: float,
+    time_limit: float,
+    costs: Costs,
+    drive_on: bool,
 ) -> Result:
-    """One mission to its end; its costs are added to the others'."""
+    """One mission to its end, and what it costs."""
     world = options.load()
-    simulation = Simulation(world, options.seed, frame_steps_of(fps))
     config = strategy.config()
-    frames, plans = len(costs.frames.laps), len(costs.plans.laps)
+    if drive_on:
+        world = replace(world, samples=np.array([OUT_OF_SIGHT]))
+        config = replace(config, time_limit=10 * time_limit, search_limit=10 * time_limit)
+    simulation = Simulation(world, options.seed, frame_steps_of(fps))
+    ends = (START_TIME + SPAN * (number + 1) for number in range(math.floor(time_limit / SPAN)))
+    end = next(ends, math.inf)
+
+    def watch(_: Decision) -> None:
+        nonlocal end
+        costs.planned.wait()
+        if simulation.time >= end:
+            costs.mark_span()
+            end = next(ends, math.inf)
+
     loop = Loop(simulation, None, strategy.perception(), core=timed_core(config, costs))
     try:
-        end = loop.run(START_TIME + time_limit, lambda _: costs.planned.wait())
+        last = loop.run(START_TIME + time_limit, watch)
     finally:
         loop.close()
+    by_span = costs.frame_ms_by_span()
     return {
         "world": world.name,
         "seed": options.seed,
         "strategy": str(strategy),
-        "done": end.done,
+        "done": last.done,
         "time": round(simulation.time - START_TIME, 1),
-        "frames": len(costs.frames.laps) - frames,
-        "plans": len(costs.plans.laps) - plans,
-        "plan_thread_ms_max": round(1000.0 * max(lap[1] for lap in costs.plans.laps[plans:]), 3),
+        "frames": len(costs.frames.laps),
+        "plans": len(costs.plans.laps),
+        "plan_thread_ms_max": round(1000.0 * max(lap[1] for lap in costs.plans.laps), 3),
+        "frame_ms_by_100_s": by_span,
+        "growth": _growth(by_span),
     }
+
+
+def _growth(by_span: list[float]) -> float | None:
+    """The costs of the last spans as a multiple of those of the first; None in a short mission."""
+    if len(by_span) < 2 * COMPARED:
+        return None
+    return round(sum(by_span[-COMPARED:]) / sum(by_span[:COMPARED]), 2)
 
 
 def summary_of(costs: Costs) -> Result:
@@ -173,6 +179,7 @@ def _table(result: Result) -> str:
         "",
         f"plans over {PLAN_LIMIT:.0f} ms: {wall} % by the wall's clock, {thread} % by the thread's",
         *map(_line, result["missions"]),
+        *(_costs_line(row) for row in result["missions"] if row["growth"] is not None),
     ]
     return "\n".join(lines)
 
@@ -181,4 +188,12 @@ def _line(row: Result) -> str:
     return (
         f"{row['world']}, {row['strategy']}: {'home' if row['done'] else 'given up'} after "
         f"{row['time']} s, {row['frames']} frames, {row['plans']} plans"
+    )
+
+
+def _costs_line(row: Result) -> str:
+    costs = " ".join(f"{ms:.1f}" for ms in row["frame_ms_by_100_s"])
+    return (
+        f"{row['world']}, thread [ms] per frame with its share of the plans, by {SPAN:.0f} s: "
+        f"{costs}; the last {COMPARED} are {row['growth']:.2f} of the first {COMPARED}"
     )

@@ -30,6 +30,12 @@ FPS = 12.5  # [1/s] half of the usual rate, in half of the time: a frame costs t
 @way_home_option
 @fps_option(FPS)
 @time_limit_option(900.0, "Simulated time for each mission [s].")
+@click.option(
+    "--long",
+    "drive_on",
+    is_flag=True,
+    help="Search for a sample that is not there until the time is over.",
+)
 @out_option
 @json_option
 def command(
@@ -40,6 +46,7 @@ def command(
     way_home: str | None,
     fps: float,
     time_limit: float,
+    drive_on: bool,
     out: Path | None,
     as_json: bool,
 ) -> None:
@@ -49,12 +56,14 @@ def command(
     loop waits for each before it continues, so that no plan is timed while the simulator and
     perception take the interpreter from it. `wall` is the time that a frame or a plan took,
     `thread` the processor time of its thread: on a busy machine the former counts other programs as
-    well.
+    well. With `--long` each mission lasts for the whole time limit: it shows whether the costs grow
+    with the map.
 
     \b
     Examples:
       ./rover bench decision
       ./rover bench decision --seeds 1-3 --size 0.4 --strategy frontier
+      ./rover bench decision --long --seeds 39 --size 2 --time-limit 1200
     """
     from rover_simulator.options import WorldOptions
     from rover_tools.benchmarks.decision import bench
@@ -62,4 +71,4 @@ def command(
 
     worlds = [WorldOptions(seed, size, map_file) for seed in seeds]
     chosen = (strategy or Strategy()).coming_home(way_home)
-    bench(worlds, chosen, fps, time_limit, out, as_json)
+    bench(worlds, chosen, fps, time_limit, out, as_json, drive_on)
