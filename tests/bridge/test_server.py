@@ -29,6 +29,7 @@ from rover_bridge.transport import (
     TelemetryReceived,
 )
 from rover_bridge.wire_websocket import apply_mask
+from rover_common.errors import CANNOT_START
 from rover_simulator.wire.unity_client import ConnectionLostError, UnityClient
 
 Events = Queue[ServerEvent]
@@ -208,7 +209,7 @@ def test_a_port_in_use_ends_the_node_with_one_sentence(server, domain_id):
         text=True,
         timeout=60,
     )
-    assert ended.returncode == 1
+    assert ended.returncode == CANNOT_START
     (line,) = ended.stderr.strip().splitlines()
     assert f"port {server.port} of 127.0.0.1 is in use" in line
 

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from rover_common.errors import CANNOT_START
+
 PROGRAM = "from rover_bridge.node import main; main()"
 
 
@@ -31,7 +33,7 @@ def test_one_sentence_says_why(domain_id, parameter, environment, text):
         text=True,
         timeout=120,
     )
-    assert ended.returncode == 1, ended.stderr
+    assert ended.returncode == CANNOT_START, ended.stderr
     lines = ended.stderr.strip().splitlines()
     (line,) = [line for line in lines if not line.startswith("[")]  # but what ROS itself logs
     assert text in line

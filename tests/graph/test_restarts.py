@@ -45,7 +45,7 @@ class Driven:
         wait(lambda: self.run.watch.mission and self.run.watch.mission.elapsed >= until)
 
     def save(self) -> None:
-        """Until perception has saved what it knows now; what it began to save before may be older."""
+        """Until perception has saved what it knows now, not only what it began to save before."""
         file = Path(str(self._parameters["perception_node"]["state_dir"])) / "perception_node.state"
         for _ in range(2):
             wait(file.exists)
