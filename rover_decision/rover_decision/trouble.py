@@ -44,7 +44,7 @@ class Trouble(Enum):
     tilted = "tilted too far"
     input_gap = "frames were missing, or the pose jumped"
     clock_apart = "the clocks are apart"
-    navigator_lost = "the navigator is gone"
+    navigator_lost = "the navigator is silent"
     stopped_moving = "no progress although driving"
     planner_failed = "the planner failed"
     plan_stale = "the plan is too old"

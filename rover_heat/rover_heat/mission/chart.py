@@ -42,7 +42,7 @@ class Event(Enum):
     recovered = "back on level ground"
     input_gap = "frames were missing, or the pose jumped"
     clock_apart = "the clocks are apart"
-    navigator_lost = "the navigator is gone"
+    navigator_lost = "the navigator is silent"
     planner_failed = "the planner failed"
     plan_stale = "the plan is too old"
     inputs_restored = "all inputs are fresh again"

@@ -1,4 +1,4 @@
-"""HOLD: an input is missing, a clock is off, or the navigator is gone. Stands until it is back."""
+"""HOLD: an input is missing, a clock is off, the navigator is silent. Stands until it is back."""
 
 from __future__ import annotations
 
