@@ -34,7 +34,7 @@ ARGUMENTS: dict[str, tuple[str | None, str]] = {
 SWITCHES = (
     "use_sim_time", "sim", "dashboard", "record", "use_rviz", "slam",
 )  # fmt: skip
-WHOLE_NUMBERS = ("seed", "port", "dashboard_port")  # from 0
+WHOLE_NUMBERS = {"seed": 2**31 - 1, "port": 65535, "dashboard_port": 65535}  # from 0 to
 NUMBERS = ("sim_rate", "sim_size")
 LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
 NAVIGATORS = ("auto", "nav2", "embedded")
@@ -54,8 +54,10 @@ def problem_of(given: Given) -> str:
             return f"{name}:={value} is neither true nor false"
         if name in NUMBERS and value and not _is_number(value):
             return f"{name}:={value} is no number"
-        if name in WHOLE_NUMBERS and value and not value.isdecimal():
-            return f"{name}:={value} is no whole number from 0"
+        if name in WHOLE_NUMBERS and value:
+            most = WHOLE_NUMBERS[name]
+            if not value.isdecimal() or int(value) > most:
+                return f"{name}:={value} is no whole number from 0 to {most}"
     choices = {"log_level": LOG_LEVELS, "navigator": NAVIGATORS, "robot_model": MODELS}
     for name, known in choices.items():
         if name in given and given[name].lower() not in known:

@@ -127,6 +127,7 @@ def test_the_robot_model_is_published_where_that_can_be(installed):
         (mission, {"sim": "perhaps"}, "sim:=perhaps is neither true nor false"),
         (mission, {"seed": "three"}, "seed:=three is no whole number"),
         (mission, {"seed": "-3"}, "seed:=-3 is no whole number from 0"),
+        (mission, {"port": "65536"}, "port:=65536 is no whole number from 0 to 65535"),
         (mission, {"sim_rate": "fast"}, "sim_rate:=fast is no number"),
         (mission, {"sim_size": "nan"}, "sim_size:=nan is no number"),
         (mission, {"log_level": "loud"}, "log_level:=loud is none of debug"),
