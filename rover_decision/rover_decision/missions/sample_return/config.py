@@ -51,7 +51,7 @@ class DecisionConfig:
         60.0, "[s] after which a rock given up is tried again", minimum=0.0, maximum=3600.0
     )
     search_limit: float = parameter(
-        150.0,
+        600.0,
         "[s] of searching known ground for samples, after which they are left",
         minimum=0.0,
         maximum=36000.0,
