@@ -6,6 +6,7 @@ A frame at which the map was published asks for a plan; it counts from the first
 
 from __future__ import annotations
 
+import traceback
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -132,7 +133,7 @@ class PlanScheduler(Generic[RequestT, PlanT]):
             if not order.future.done():
                 self._replace_pool()
                 return PlanFailed(order.stamp, f"no plan within {self._patience:g} s")
-            return PlanFailed(order.stamp, f"{type(error).__name__}: {error}")
+            return PlanFailed(order.stamp, _told(error))
 
     def _replace_pool(self) -> None:
         """The planner's thread hangs: go on with a new one, and order anew what waits for it."""
@@ -167,6 +168,13 @@ def _make(
 ) -> PlanT:
     """In the planner's thread."""
     return plan(make_request(grid))
+
+
+def _told(error: Exception) -> str:
+    """What it is, and where it comes from."""
+    places = traceback.extract_tb(error.__traceback__)
+    where = f" ({places[-1].filename}:{places[-1].lineno})" if places else ""
+    return f"{type(error).__name__}: {error}{where}"
 
 
 def _pool() -> ThreadPoolExecutor:

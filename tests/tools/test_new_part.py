@@ -70,6 +70,26 @@ def test_the_scoreboard_has_its_row(environment):
     assert all(row["percent_mapped"] > 0 for row in rows)
 
 
+def test_an_error_in_a_rule_is_a_failed_mission_and_told(environment):
+    file = environment.folder / PARTS["explorer"] / "src" / PARTS["explorer"] / "explorer.py"
+    text = file.read_text()
+    head, rule, rest = text.partition("    if goal.kind is")
+    assert rule
+    try:
+        file.write_text(f'{head}    raise ValueError("ups")\n{rule}{rest}')
+        short = ["--worlds", "1", "--size", "0.2", "--fps", "5", "--time-limit", "10"]
+        done = environment.rover(
+            "scoreboard", *short, "--strategies", PARTS["explorer"], "--out", "broken",
+            "--workers", "1", "--json",
+        )  # fmt: skip
+    finally:
+        file.write_text(text)
+    assert done.returncode == 1
+    (row,) = json.loads(done.stdout)
+    assert row["reason"].startswith("failed: PlanError: the planner failed: ValueError: ups (")
+    assert "explorer.py:" in row["reason"]
+
+
 def test_a_second_one_of_this_name_is_refused(environment):
     again = environment.rover("new", "explorer", PARTS["explorer"], "--out", "elsewhere")
     assert again.returncode == 1

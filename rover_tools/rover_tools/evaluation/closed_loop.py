@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_bridge.codec import encode_drive
+from rover_common.errors import RoverError
 from rover_common.types import GridMap, RockTrack
 from rover_decision.core import DecisionCore
 from rover_decision.missions.sample_return import make_core
@@ -22,6 +23,10 @@ from rover_decision.types import Decision, Frame
 from rover_perception.config import PerceptionConfig
 from rover_simulator.simulation import Simulation
 from rover_tools.evaluation.observer import Observer
+
+
+class PlanError(RoverError):
+    """The planner, or an explorer in it, raised an error."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +64,10 @@ class Loop:
     def run(
         self, time_limit: float, watch: Callable[[Decision], object] | None = None
     ) -> LoopResult:
-        """Run until the mission is over or the simulated time reaches `time_limit` [s]."""
+        """Run until the mission is over or the simulated time reaches `time_limit` [s].
+
+        Raises PlanError where the planner did: the mission holds then, and goes home.
+        """
         # The simulator sends two telemetries when it connects, and advances when both are answered.
         answers = [self.decide(), self.decide()]
         track = [self._position()]
@@ -73,6 +81,8 @@ class Loop:
             if self.simulation.time >= len(track) + 1.0:
                 track.append(self._position())
             answers = [self.decide()]
+            if self.core.plan_failures:
+                raise PlanError(f"the planner failed: {self.core.last_failure}")
             if watch is not None:
                 watch(answers[-1])
         track.append(self._position())

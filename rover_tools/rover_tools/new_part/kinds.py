@@ -39,12 +39,25 @@ class Kind:
     module: str  # of the part, also the names of its templates
     part: str  # the object in it
     strategy: str  # how a command names it, with {} for the name
+    beside: str  # the strategy that the scoreboard compares it with
+    worlds: str  # how many small canyons that takes
 
 
 KINDS: Mapping[str, Kind] = {
-    "explorer": Kind(EXPLORERS, "explorer", "explorer", "{}"),
-    "perception": Kind(RECIPES, "perception", "recipe", "tour@{}"),
+    "explorer": Kind(EXPLORERS, "explorer", "explorer", "{}", "tour", "1-4"),
+    "perception": Kind(RECIPES, "perception", "recipe", "tour@{}", "tour@baseline", "1-2"),
 }
+
+
+def next_commands(kind: Kind, name: str, folder: Path) -> list[str]:
+    """What to call when a part has been made."""
+    strategy = kind.strategy.format(name)
+    board = f"--worlds {kind.worlds} --size 0.4 --fps 12.5 --strategies {kind.beside},{strategy}"
+    return [
+        f"./rover test {folder}",
+        f"./rover demo --strategy {strategy}",
+        f"./rover scoreboard {board}",
+    ]
 
 
 def check_name(kind: Kind, name: str) -> None:
@@ -70,7 +83,7 @@ def write_skeleton(kind: Kind, name: str, folder: Path) -> None:
         "group": kind.registry.group,
         "module": kind.module,
         "part": kind.part,
-        "strategy": kind.strategy.format(name),
+        "commands": next_commands(kind, name, Path(name)),
     }
     files = {
         "pyproject.toml": "pyproject.toml.j2",
@@ -85,11 +98,15 @@ def write_skeleton(kind: Kind, name: str, folder: Path) -> None:
         write_whole(file, TEMPLATES.get_template(template).render(values))
 
 
-def install(folder: Path) -> None:
-    """As a package whose files stay where they are; raises NewPartError."""
+def install_command(folder: Path) -> list[str]:
+    """Of pip, for a package whose files stay where they are."""
     command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
-    command += ["--no-input", "--no-deps", "--no-build-isolation", "--editable", str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    return [*command, "--no-input", "--no-deps", "--no-build-isolation", "--editable", str(folder)]
+
+
+def install(folder: Path) -> None:
+    """Run that command; raises NewPartError."""
+    done = subprocess.run(install_command(folder), capture_output=True, text=True)
     if done.returncode != 0:
         lines = done.stderr.strip().splitlines() or ["no message"]
         raise NewPartError(f"pip cannot install {folder}: {lines[-1]}")

@@ -70,6 +70,7 @@ def run_mission(
         with recording(run, record):
             done, measured, grid = _drive(run, seed, fps, time_limit)
             mission, rocks = run.watch.mission, run.watch.rocks()
+            _remark_on_plans(run)
     result = mission_result(
         world, str(strategy), seed, done=done, run=measured, grid=grid, rocks=rocks,
         recoveries=mission and mission.recoveries, wall_seconds=time.monotonic() - start,
@@ -89,6 +90,14 @@ def _drive(
     run.processes.start(SIMULATOR, simulator_command(run, seed, fps, time_limit))
     done = watch_mission(run, time_limit)
     return done, *end_and_measure(run)
+
+
+def _remark_on_plans(run: Run) -> None:
+    """A mission whose planner fails holds and goes home, which looks like a success."""
+    failed = run.watch.counts().get("decision_node", {}).get("plans_failed", 0)
+    if failed:
+        log = run.folder / "log" / "decision_node.log"
+        run.processes.remark(f"decision_node: {failed} plans failed; {log} tells why")
 
 
 def end_and_measure(run: Run) -> tuple[MissionRun, GridMap | None]:

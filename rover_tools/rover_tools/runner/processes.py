@@ -88,8 +88,7 @@ class Processes:
                     f"{child.name} ended with exit code {code}; the end of {child.log}:\n"
                     + _tail(child.log)
                 )
-            self._remarks.append(f"{child.name} ended with exit code {code}; it is started again")
-            note(self._remarks[-1])
+            self.remark(f"{child.name} ended with exit code {code}; it is started again")
             child.respawns += 1
             child.process = self._spawn(child.command, child.log)
 
@@ -97,8 +96,13 @@ class Processes:
         """How often each process that ended was started again, until all are stopped."""
         return {child.name: child.respawns for child in self._children if child.respawns}
 
+    def remark(self, text: str) -> None:
+        """Tell it, and keep it for the result."""
+        self._remarks.append(text)
+        note(text)
+
     def remarks(self) -> dict[str, list[str]]:
-        """For a result: `remarks` on what was started again; nothing where nothing was."""
+        """For a result: `remarks`, as on what was started again; nothing where there are none."""
         return {"remarks": self._remarks} if self._remarks else {}
 
     def pid(self, name: str) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
 from pathlib import Path
 
@@ -25,7 +26,14 @@ def command(kind: str, name: str, out: Path | None, no_install: bool) -> None:
       ./rover new explorer my_explorer
       ./rover new perception my_perception
     """
-    from rover_tools.new_part.kinds import KINDS, NewPartError, install, write_skeleton
+    from rover_tools.new_part.kinds import (
+        KINDS,
+        NewPartError,
+        install,
+        install_command,
+        next_commands,
+        write_skeleton,
+    )
     from rover_tools.output import note
 
     made = KINDS[kind]
@@ -38,4 +46,5 @@ def command(kind: str, name: str, out: Path | None, no_install: bool) -> None:
             shutil.rmtree(folder)
             raise
     note(f"the part is {folder / 'src' / name / made.module}.py; next:")
-    print(f"./rover test {folder}\n./rover demo --strategy {made.strategy.format(name)}")
+    commands = next_commands(made, name, folder)
+    print("\n".join([shlex.join(install_command(folder)), *commands] if no_install else commands))
