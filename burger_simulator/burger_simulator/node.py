@@ -53,6 +53,9 @@ class BurgerNode(ManagedNode):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("burger_node", **kwargs)
         self._truth_file: TruthFile | None = None
+        self.bring_up(self._prepare)
+
+    def _prepare(self) -> None:
         self._frames = declare_parameters(self, SensorFrameConfig).frames()
         self._config = declare_parameters(self, BurgerConfig, self._on_config)
         self._maze = maze = self._config.maze()
@@ -72,7 +75,6 @@ class BurgerNode(ManagedNode):
             self._look_period(), self._proceed, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
         self.get_logger().info(f"{maze.name}: {len(maze.sources)} heat sources")
-        self.start()
 
     def destroy_node(self) -> None:
         """Close the file of the truth, then the node."""

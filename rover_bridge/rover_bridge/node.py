@@ -53,18 +53,13 @@ class BridgeNode(ManagedNode):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("bridge_node", **kwargs)
-        try:
-            self._frames = declare_parameters(self, CameraFrameConfig).frames()
-            self._config = declare_parameters(
-                self, BridgeConfig, lambda new: self._insets.configure(new)
-            )
-            self._prepare(self._config)
-            self.start()
-        except BaseException:
-            self.destroy_node()  # before the context ends, which it must not outlive
-            raise
+        self.bring_up(self._prepare)
 
-    def _prepare(self, config: BridgeConfig) -> None:
+    def _prepare(self) -> None:
+        self._frames = declare_parameters(self, CameraFrameConfig).frames()
+        self._config = config = declare_parameters(
+            self, BridgeConfig, lambda new: self._insets.configure(new)
+        )
         self._insets = InsetDrawer(self, config, config.true_map(), self._frames.map)
         self._active = ActiveClient()
         self._requests = PendingRequests(config.answer_deadline)

@@ -40,12 +40,15 @@ class SimulatorNode(ManagedNode):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__("simulator_node", **kwargs)
+        self._ended, self._changed = threading.Event(), threading.Event()
+        self._thread: threading.Thread | None = None
+        self.bring_up(self._prepare)
+
+    def _prepare(self) -> None:
         self._config = declare_parameters(self, SimulatorConfig, self._on_config)
         self._frame_steps = frame_steps_of(self._config.fps)
         self._paused = self._config.start_paused
         self._gate = StepGate(closed=True)
-        self._ended, self._changed = threading.Event(), threading.Event()
-        self._thread: threading.Thread | None = None
         # what the thread has to tell of its connection; the latest of what comes faster than that
         self._told: deque[str] = deque(maxlen=TOLD)
         self.simulation: Simulation | None = None
@@ -53,11 +56,6 @@ class SimulatorNode(ManagedNode):
         SimulatorControl(self, self, ENTITY, WORLD)
         wall = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(LOOK, self._look, clock=wall)
-        try:
-            self.start()
-        except BaseException:
-            self.destroy_node()
-            raise
 
     def configure(self) -> None:
         """Make the world, and connect to the server."""

@@ -44,14 +44,6 @@ class Driven:
         until = seconds + (0.0 if mission is None else mission.elapsed)
         wait(lambda: self.run.watch.mission and self.run.watch.mission.elapsed >= until)
 
-    def save(self) -> None:
-        """Until perception has saved what it knows now, not only what it began to save before."""
-        file = Path(str(self._parameters["perception_node"]["state_dir"])) / "perception_node.state"
-        for _ in range(2):
-            wait(file.exists)
-            before = file.stat().st_mtime_ns
-            wait(lambda before=before: file.exists() and file.stat().st_mtime_ns > before)
-
     def kill(self, *names: str) -> None:
         """SIGKILL, and start them again."""
         children = {child.name: child for child in self.run.processes._children}
@@ -88,7 +80,6 @@ def test_mission_home_rocks_and_map_survive_the_kill_of_each_node_and_of_all(dri
     driven.drive()
     for names in [*((name,) for name in NODES), tuple(NODES)]:
         mission, rocks, grid = watch.mission, watch.rocks(), conversions.grid_of(watch.grid)
-        driven.save()
         driven.kill(*names)
         driven.drive()
         after, mapped = watch.mission, conversions.grid_of(watch.grid)

@@ -178,21 +178,25 @@ def process(tmp_path, domain_id):
     started.communicate()
 
 
+FLUSHES = 3  # the first may have begun before the first text
+
+
 def record_until(ros, graph, process, number: signal.Signals, tmp_path):
-    """Publish numbered texts until the file grows, then end the process."""
+    """Publish numbered texts until the file must hold some, then end the process."""
     folder = tmp_path / "a run #1"
     file = folder / "a run #1_0.mcap"
     publisher = graph.create_publisher(String, "text", qos.FRAME)
     # The recorder gives way to other processes: on a busy machine it starts late.
     assert ros.spin_until(lambda: publisher.get_subscription_count() > 0, timeout=60.0)
-    size = file.stat().st_size
-    count = 0
+    size, count, growths = file.stat().st_size, 0, 0
 
     def grown() -> bool:
-        nonlocal count
+        nonlocal count, size, growths
         publisher.publish(String(data=str(count)))
         count += 1
-        return file.stat().st_size > size
+        before, size = size, file.stat().st_size
+        growths += size > before
+        return growths == FLUSHES
 
     assert ros.spin_until(grown)
     process.send_signal(number)

@@ -29,7 +29,7 @@ class ManagedNode(CheckedNode, LifecycleNode):
     """A checked node whose work begins with its activation.
 
     A subclass has the four steps below, which may raise. With `autostart`, what they raise leaves
-    `start`; asked for by a service, it is logged and the transition fails.
+    `bring_up`; asked for by a service, it is logged and the transition fails.
     """
 
     def __init__(self, name: str, **kwargs: Any) -> None:
@@ -52,8 +52,20 @@ class ManagedNode(CheckedNode, LifecycleNode):
     def cleanup(self) -> None:
         """Give back what `configure` took."""
 
-    def start(self) -> None:
-        """At the end of a subclass's constructor: activate, unless somebody else is to."""
+    def bring_up(self, prepare: Step) -> None:
+        """In a subclass's constructor: prepare, then activate, unless somebody else is to.
+
+        A node that cannot be brought up is destroyed before its context ends, which it must not
+        outlive; the error is raised.
+        """
+        try:
+            prepare()
+            self._start()
+        except BaseException:
+            self.destroy_node()
+            raise
+
+    def _start(self) -> None:
         for trigger in (self.trigger_configure, self.trigger_activate):
             if not self._autostart or trigger() != TransitionCallbackReturn.SUCCESS:
                 break
