@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rover_interfaces.msg import HeatSourceArray, HeatState
@@ -66,7 +67,7 @@ class HeatWatch(DiagnosticsWatch):
         subscribe(HeatState, topics.HEAT_STATE, self._on_state, ALL_STATES)
         subscribe(HeatSourceArray, topics.HEAT_SOURCES, self._on_sources, qos.LATCHED)
         subscribe(OccupancyGrid, topics.MAP, self._on_map, qos.LATCHED)
-        subscribe(TFMessage, "/tf", self._on_transforms, qos.TF)
+        subscribe(TFMessage, "/tf", self._on_transform, qos.TF)
         self._resume = self.node.create_client(Trigger, f"{SIMULATOR}/resume")
         self.start()
 
@@ -113,11 +114,10 @@ class HeatWatch(DiagnosticsWatch):
     def _on_map(self, message: OccupancyGrid) -> None:
         self._grid = message
 
-    def _on_transforms(self, message: TFMessage) -> None:
-        for each in message.transforms:
-            stamped = conversions.stamp_of(each.header.stamp), pose_of_transform(each)
-            pair = bare(each.header.frame_id), bare(each.child_frame_id)
-            if pair == (MAP, ODOM):
-                self.corrections.append(stamped)
-            elif pair == (ODOM, BASE_FOOTPRINT):
-                self.odometry.append(stamped)
+    def _on_transform(self, link: TransformStamped) -> None:
+        stamped = conversions.stamp_of(link.header.stamp), pose_of_transform(link)
+        pair = bare(link.header.frame_id), bare(link.child_frame_id)
+        if pair == (MAP, ODOM):
+            self.corrections.append(stamped)
+        elif pair == (ODOM, BASE_FOOTPRINT):
+            self.odometry.append(stamped)
