@@ -9,8 +9,8 @@ from rover_bringup.starts import (
     Plan,
     Start,
     check,
-    numbers,
     page_and_recorder,
+    parameter_values,
     rviz,
     shared_values,
     shipped,
@@ -50,7 +50,7 @@ def simulator(given: Given) -> Plan:
     """In place of a robot. It makes /clock and does not follow it."""
     if not is_true(given["sim"]):
         return []
-    values = numbers(given, {"seed": ("seed", int), "sim_rate": ("rate", float)})
+    values = parameter_values(given, {"seed": ("seed", int), "sim_rate": ("rate", float)})
     if given["frame_prefix"]:
         values["frame_prefix"] = given["frame_prefix"]
     files = (given["sim_params_file"],)

@@ -12,8 +12,8 @@ from rover_bringup.starts import (
     Start,
     check,
     is_installed,
-    numbers,
     page_and_recorder,
+    parameter_values,
     rviz,
     shared_values,
     shipped,
@@ -32,12 +32,12 @@ def plan(given: Given) -> Plan:
     check(given)
     files = (given["params_file"],)
     shared = shared_values(given)
-    address = numbers(given, {"host": ("host", str), "port": ("port", int)})
+    address = parameter_values(given, {"host": ("host", str), "port": ("port", int)})
     model = robot_model(given)
     bridge = {**shared, **address}
     if model:
         bridge["camera_transforms"] = False  # which the model has as well
-    explorer = numbers(given, {"explorer": ("explorer", str)})
+    explorer = parameter_values(given, {"explorer": ("explorer", str)})
     nodes = [
         Start("rover_bridge", "bridge_node", AtEnd.SHUTDOWN, files, bridge),
         Start("rover_perception", "perception_node", AtEnd.RESPAWN, files, shared),
@@ -51,7 +51,7 @@ def simulator(given: Given, files: tuple[str, ...]) -> Plan:
     """It connects to the bridge; its telemetry has the time that /clock is made of."""
     if not is_true(given["sim"]):
         return []
-    values = numbers(
+    values = parameter_values(
         given,
         {
             "seed": ("seed", int),

@@ -91,7 +91,9 @@ def shared_values(given: Given) -> dict[str, object]:
     return {"use_sim_time": in_sim_time} | ({"frame_prefix": prefix} if prefix else {})
 
 
-def numbers(given: Given, names: Mapping[str, tuple[str, Callable[[str], object]]]) -> dict:
+def parameter_values(
+    given: Given, names: Mapping[str, tuple[str, Callable[[str], object]]]
+) -> dict:
     """Parameter values of the arguments that were given: parameter and type by argument."""
     return {
         parameter: kind(given[name]) for name, (parameter, kind) in names.items() if given[name]
@@ -109,7 +111,7 @@ def page_and_recorder(given: Given, files: tuple[str, ...], mission: str) -> Pla
     """What shows and records a mission, each on request."""
     plan: Plan = []
     if is_true(given["dashboard"]):
-        values = numbers(given, {"dashboard_port": ("port", int)})
+        values = parameter_values(given, {"dashboard_port": ("port", int)})
         plan.append(Start("rover_dashboard", "dashboard_node", files=files, values=values))
     if is_true(given["record"]):
         values = {"mission": mission}

@@ -9,10 +9,10 @@ import subprocess
 import sys
 import termios
 import threading
-import time
 from pathlib import Path
 
 import pytest
+from waiting import holds
 
 from rover_recorder.reader import open_recording
 from rover_tools.cli.main import main
@@ -104,11 +104,8 @@ def test_a_drive_by_keys_moves_the_rover_and_leaves_a_recording(tmp_path):
         listener.start()
 
         def wait_for(text: bytes) -> None:
-            end = time.monotonic() + WAIT
-            while text not in said:
-                assert process.poll() is None, said.decode()
-                assert time.monotonic() < end, said.decode()
-                time.sleep(0.05)
+            assert holds(lambda: text in said or process.poll() is not None, WAIT), said.decode()
+            assert text in said, said.decode()
             said.clear()
 
         wait_for(b"driver: manual")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import wraps
 from typing import Any
 
@@ -75,12 +76,8 @@ class CheckedNode(Node):
 
         @wraps(callback)
         def guarded(*given: Any, **keywords: Any) -> None:
-            try:
+            with self.guard(name):
                 callback(*given, **keywords)
-            except Exception:
-                if not self.context.ok():  # the race with the shutdown
-                    raise
-                self.fail(name)
 
         return super().create_timer(timer_period_sec, guarded, *arguments, **options)
 
@@ -106,8 +103,17 @@ class CheckedNode(Node):
             text = f"{topic}: refused: {error} ({self.counts[key]} so far)"
             self.get_logger().warning(text)
 
-    def fail(self, topic: str) -> None:
-        """Count the exception at hand, of a topic or a timer, and tell where it comes from."""
+    @contextmanager
+    def guard(self, name: str) -> Iterator[None]:
+        """An exception within, of a topic or a timer, ends here: counted, and told once."""
+        try:
+            yield
+        except Exception:
+            if not self.context.ok():  # the race with the shutdown
+                raise
+            self._fail(name)
+
+    def _fail(self, topic: str) -> None:
         key = f"failed_{topic.lstrip('/')}"
         self.counts[key] += 1
         if self._may_say(key):
@@ -142,13 +148,9 @@ class Entrance:
 
     def __call__(self, message: Any) -> None:
         for part in parts_of(message):
-            try:
+            with self._node.guard(self._topic):
                 take = self._callback if self._passes(part) else self._refused
                 take(part)
-            except Exception:
-                if not self._node.context.ok():  # the race with the shutdown
-                    raise
-                self._node.fail(self._topic)
 
     def _passes(self, message: Any) -> bool:
         if self._check is None:
