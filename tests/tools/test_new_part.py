@@ -7,6 +7,7 @@ import subprocess
 import sys
 import sysconfig
 import venv
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ from rover_common.registry import PartError
 from rover_decision.missions.sample_return.explorer import explorer_of
 from rover_perception.factory import recipe_of
 from rover_tools.cli.main import main
-from rover_tools.new_part.kinds import KINDS
+from rover_tools.new_part.kinds import KINDS, NewPartError, install
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = {"explorer": "sandy_explorer", "perception": "sandy_perception"}
@@ -98,6 +99,7 @@ def test_a_second_one_of_this_name_is_refused(environment):
     )
 
 
+@pytest.mark.skipif(find_spec("ruff") is None, reason="the lint tools are on the other platform")
 def test_its_files_keep_the_projects_style(environment):
     for check in (["check"], ["format", "--check"]):
         config = ["--config", str(ROOT / "pyproject.toml")]
@@ -139,6 +141,12 @@ def test_what_cannot_be_installed_is_not_left_behind(capsys, tmp_path, monkeypat
     assert main(["new", "explorer", "sandy", "--out", str(tmp_path / "mine")]) == 1
     assert "pip cannot install" in capsys.readouterr().err
     assert not (tmp_path / "mine").exists()
+
+
+def test_the_cause_is_told_why_it_cannot_be_installed(tmp_path):
+    (tmp_path / "setup.py").write_text("raise OSError('the moon is full')\n")
+    with pytest.raises(NewPartError, match=r"OSError: the moon is full$"):
+        install(tmp_path)
 
 
 @pytest.mark.parametrize("kind", KINDS.values(), ids=list(KINDS))

@@ -19,6 +19,7 @@ from rover_common.whole_file import write_whole
 from rover_decision.missions.sample_return.explorer_names import EXPLORERS
 from rover_perception.recipe_names import RECIPES
 
+CAUSE = re.compile(r"error: \S+ ", re.IGNORECASE)  # in pip's messages
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 TEMPLATES = Environment(
     loader=PackageLoader(__package__, "templates"),
@@ -109,4 +110,5 @@ def install(folder: Path) -> None:
     done = subprocess.run(install_command(folder), capture_output=True, text=True)
     if done.returncode != 0:
         lines = done.stderr.strip().splitlines() or ["no message"]
-        raise NewPartError(f"pip cannot install {folder}: {lines[-1]}")
+        told = [line.strip() for line in lines if CAUSE.search(line)]  # pip ends with a hint
+        raise NewPartError(f"pip cannot install {folder}: {(told or lines)[-1]}")
