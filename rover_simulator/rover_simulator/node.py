@@ -133,7 +133,7 @@ class SimulatorNode(ManagedNode):
     def _run(self) -> None:
         """The simulation's thread."""
         assert self.simulation is not None
-        client = UnityClient(self._config.host, self._config.port, self._on_refused)
+        client = UnityClient(self._config.host, self._config.port, self._told.append)
         while not self._is_over():
             self._changed.clear()
             pacing = self._pacing(self.simulation)
@@ -152,10 +152,6 @@ class SimulatorNode(ManagedNode):
             return LockstepPacing(simulation, lambda: None, self._gate)
         period = self._frame_steps * STEP / self._config.rate
         return TimedPacing(simulation, lambda: None, period, self._gate)
-
-    def _on_refused(self, reason: str) -> None:
-        """Called in the simulation's thread."""
-        self._told.append(f"refused by the server: {reason}")
 
     def _look(self) -> None:
         """What the simulation's thread has to tell; the node ends with it."""

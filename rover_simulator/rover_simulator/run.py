@@ -12,7 +12,13 @@ from rover_simulator.saved_simulation import SavedSimulation
 from rover_simulator.sensors.screen import SavedScreen
 from rover_simulator.simulation import Simulation
 from rover_simulator.vehicle.vehicle import STEP
-from rover_simulator.wire.pacing import LockstepPacing, Pacing, TimedPacing, run_connected
+from rover_simulator.wire.pacing import (
+    LockstepPacing,
+    Pacing,
+    TimedPacing,
+    print_error,
+    run_connected,
+)
 from rover_simulator.wire.unity_client import UnityClient
 from rover_simulator.world.world import World
 
@@ -108,13 +114,9 @@ def simulate(
     pacing: Pacing = LockstepPacing(simulation, update)
     if rate is not None:
         pacing = TimedPacing(simulation, update, frame_steps * STEP / rate)
-    client = UnityClient(host, port, _print_refusal)
+    client = UnityClient(host, port, print_error)
     run_connected(client, pacing, lambda: stop() or simulation.time >= time_limit)
     reports.report()
-
-
-def _print_refusal(reason: str) -> None:
-    print(f"rover sim: refused by the server: {reason}", file=sys.stderr)
 
 
 def frame_steps_of(fps: float) -> int:

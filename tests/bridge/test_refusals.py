@@ -140,7 +140,7 @@ def test_a_simulator_is_told_why_it_is_refused():
     for _ in range(2):
         with pytest.raises(ConnectionLostError, match="token"):
             simulator.connect(timeout=WAIT)
-    assert told == [simulator.refused]
+    assert told == [f"refused by the server: {simulator.refused}"]
     door.server.close()
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import re
 import time
 from collections.abc import Callable, Mapping
@@ -21,9 +22,9 @@ from rover_common.errors import RoverError
 FRAGMENT_BYTES = 1016
 PING_PERIOD = 25.0  # [s] after each pong
 RECONNECT_PAUSE = 0.005  # [s]
-CONNECT_TIMEOUT = 5.0  # [s]
-SEND_TIMEOUT = 5.0  # [s]
+CONNECT_TIMEOUT, SEND_TIMEOUT = 5.0, 5.0  # [s]
 CLOSE_TIMEOUT = 0.5  # [s] for the server's side of the closing handshake
+SILENCE = 5.0  # [s] without an answer to a telemetry until it is told
 SHORTEST_WAIT = 0.001  # [s]
 
 # Each of these events is answered with exactly one telemetry.
@@ -52,15 +53,16 @@ class UnityClient:
     """One connection; no thread of its own, so `receive` has to be called for pings to be sent."""
 
     def __init__(
-        self, host: str, port: int, on_refused: Callable[[str], None] = lambda reason: None
+        self, host: str, port: int, tell: Callable[[str], None] = lambda text: None
     ) -> None:
-        """on_refused: told why the server refuses the connection or a telemetry, once each time."""
+        """tell: what is wrong with the server's answers, once each time."""
         self.address = f"{host}:{port}"
         self.refused = ""  # why the server refused what was sent last; empty when it did not
-        self._on_refused = on_refused
+        self._tell = tell
         self._url = f"ws://{host}:{port}/socket.io/?EIO=4&transport=websocket"
         self._socket: websocket.WebSocket | None = None
         self._next_ping: float | None = None
+        self._asked: float | None = None  # [s] since when an answer is waited for
 
     def connect(self, timeout: float) -> None:
         """Open the socket and send the first ping; raises ConnectionLostError."""
@@ -78,7 +80,7 @@ class UnityClient:
             raise ConnectionLostError(f"{self._url}: {error}") from error
         self._socket = socket
         self._send("2")
-        self._next_ping = None
+        self._next_ping = self._asked = None
 
     def connect_until(
         self, stopped: Callable[[], bool], while_waiting: Callable[[], None] = lambda: None
@@ -102,6 +104,8 @@ class UnityClient:
         """Raises ConnectionLostError."""
         arguments = json.dumps(["telemetry", telemetry], separators=(",", ":"))
         self._send("42" + arguments)
+        if self._asked is None:
+            self._asked = time.monotonic()
 
     def receive(self, timeout: float) -> Event | None:
         """The next event, or None after `timeout` [s]; 0 takes only what has already arrived.
@@ -115,7 +119,9 @@ class UnityClient:
             message = self._receive_text(max(0.0, end - time.monotonic()))
             event = None if message is None else self._event(message)
             if event is not None:
+                self._asked = time.monotonic() if event.name == OPEN else None
                 return event
+            self._note_silence()
             if message is None and time.monotonic() >= end:
                 return None
 
@@ -167,8 +173,13 @@ class UnityClient:
 
     def _note_refusal(self, reason: str) -> None:
         if reason and reason != self.refused:
-            self._on_refused(reason)
+            self._tell(f"refused by the server: {reason}")
         self.refused = reason
+
+    def _note_silence(self) -> None:
+        if self._asked is not None and time.monotonic() - self._asked > SILENCE:
+            self._asked = math.inf  # told until it answers
+            self._tell(f"connected to {self.address}, which does not answer")
 
     def _refusal(self, reason: str) -> ProtocolError:
         """Closes the socket, as an exception in the original's receiver does."""
@@ -227,8 +238,7 @@ class UnityClient:
 
 def _parse_json(text: str) -> Any:
     """The value of a JSON text with its strings raw, as the simulator reads them: the escapes in
-    them stay escapes. None for what is no JSON.
-    """
+    them stay escapes. None for what is no JSON."""
     try:
         return json.loads(ESCAPE.sub(_escape_again, text))
     except (ValueError, RecursionError):
