@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import deepcopy
+from functools import cache, wraps
 from typing import Any
 
 from driven_heat import APPROACH, RAMP, RAMP_PITCH, SOURCE, STAND, DrivenHeat
@@ -16,6 +18,13 @@ from rover_navigation.types import PlanFailed
 FAILURE = PlanFailed(1, "it did not come")
 
 
+def copied(make: Callable[..., DrivenHeat]) -> Callable[..., DrivenHeat]:
+    """Made once for each config, then copied: many tests begin with the same mission."""
+    made = cache(make)
+    return wraps(make)(lambda config=None: deepcopy(made(config)))
+
+
+@copied
 def exploring(config: HeatConfig | None = None) -> DrivenHeat:
     """On its way to a first goal."""
     driven = DrivenHeat(config)
@@ -30,6 +39,7 @@ def explored_plan(**what: Any) -> HeatPlan:
     return HeatPlan(0, **(parts | what))
 
 
+@copied
 def navigating(config: HeatConfig | None = None) -> DrivenHeat:
     """On its way to a source."""
     driven = exploring(config)
@@ -40,6 +50,7 @@ def navigating(config: HeatConfig | None = None) -> DrivenHeat:
     return driven
 
 
+@copied
 def launching(config: HeatConfig | None = None) -> DrivenHeat:
     """Standing before the source."""
     driven = navigating(config)
@@ -48,6 +59,7 @@ def launching(config: HeatConfig | None = None) -> DrivenHeat:
     return driven
 
 
+@copied
 def at_ramp(config: HeatConfig | None = None) -> DrivenHeat:
     """On its way to the foot of a ramp that it has met before."""
     driven = exploring(config)
@@ -59,9 +71,10 @@ def at_ramp(config: HeatConfig | None = None) -> DrivenHeat:
     return driven
 
 
-def returning() -> DrivenHeat:
+@copied
+def returning(config: HeatConfig | None = None) -> DrivenHeat:
     """On its way back, the ramp given up."""
-    driven = exploring(HeatConfig(return_to_start=True))
+    driven = exploring(config or HeatConfig(return_to_start=True))
     driven.mission.parts.agenda.ramp_given_up = True
     driven.arrive()
     driven.plan = HeatPlan(0)
@@ -90,7 +103,9 @@ def paused(driven: DrivenHeat) -> DrivenHeat:
 
 def failed() -> DrivenHeat:
     driven = DrivenHeat()
-    driven.until_state(State.FAILED, 62.0, grid=None)
+    driven.tick(grid=None)
+    driven.time += 60.0
+    driven.until_state(State.FAILED, 1.0, grid=None)
     return driven
 
 
