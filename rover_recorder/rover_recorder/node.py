@@ -47,6 +47,7 @@ from rover_recorder.conversions import (
     type_of,
 )
 from rover_recorder.errors import RecordingError
+from rover_recorder.known_listener import KnownListener
 from rover_recorder.schemas import begins_with_stamp, definition
 from rover_recorder.types import Topic
 from rover_recorder.writer import RecordingWriter
@@ -83,9 +84,10 @@ class RecorderNode(CheckedNode):
         # Topics that are not to be recorded, or cannot be.
         self._left_out = {self.resolve_topic_name(name) for name in config.leave_out.split()}
         self._seen: set[str] = set()  # image topics whose `/compressed` one may come yet
-        peers = {
-            name: partial(self._records, needed) for name, needed in NEEDED[config.mission].items()
-        }
+        self._needed = NEEDED[config.mission]
+        self._listener: KnownListener | None = None  # made when all that is needed is subscribed
+        self._ready: set[str] = set()  # peers
+        peers = {name: partial(self._is_connected, name) for name in self._needed}
         self._diagnostics = NodeDiagnostics(self, peers)
         wall = Clock(clock_type=ClockType.STEADY_TIME)
         self._clocked = [
@@ -121,6 +123,8 @@ class RecorderNode(CheckedNode):
             except RecordingError as error:
                 self._left_out.add(name)
                 self.get_logger().warning(f"{name} is not recorded: {error}")
+        if self._listener is None and all(map(self._records, self._needed.values())):
+            self._listener = KnownListener(self)
 
     def _subscribe(self, name: str, kind: str, recorded: str) -> None:
         publishers = self.get_publishers_info_by_topic(name)
@@ -173,8 +177,19 @@ class RecorderNode(CheckedNode):
             self.failure = error
             self.writer.abandon()
 
+    def _is_connected(self, peer: str) -> bool:
+        """Whether all topics that are needed of it are recorded from their next message on."""
+        topics = self._needed[peer]
+        if not self._records(topics):
+            return False
+        if peer not in self._ready and self._listener is not None:
+            names = [self._recorded[self.resolve_topic_name(topic)].topic_name for topic in topics]
+            if all(map(self._listener.known_by_publishers, names)):
+                self._ready.add(peer)
+        return peer in self._ready
+
     def _records(self, needed: tuple[str, ...]) -> bool:
-        """Whether all these topics are subscribed, and their publishers know."""
+        """Whether all these topics are subscribed and published."""
         found = [self._recorded.get(self.resolve_topic_name(topic)) for topic in needed]
         return all(s is not None and s.get_publisher_count() > 0 for s in found)
 

@@ -84,7 +84,7 @@ def test_a_closed_server_leaves_no_thread_and_no_open_file():
     files, threads = open_files(), threading.active_count()
     for _ in range(5):
         serve_once()
-    assert threading.active_count() == threads
+    assert threading.active_count() <= threads  # one of another test may end meanwhile
     assert open_files() <= files
 
 
