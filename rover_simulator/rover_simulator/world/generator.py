@@ -6,6 +6,7 @@ A drawn canyon has an open centre, winding arms with dead ends, loops, and small
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from pathlib import Path
 
 import cv2
@@ -32,8 +33,12 @@ Point = NDArray[np.float64]
 Canvas = NDArray[np.uint8]
 
 
+@lru_cache(maxsize=1)  # of the one that is simulated again: what is painted of it is kept as well
 def generate_world(seed: int, size: float = 1.0) -> World:
-    """The canyon of a seed; `size` scales the length of its arms, 1 for that of the original."""
+    """The canyon of a seed; `size` scales the length of its arms, 1 for that of the original.
+
+    Its arrays cannot be written to: whoever asks again gets the same world.
+    """
     random = default_rng(seed)
     center = random.uniform(85, 115, 2)
     canvas = np.zeros((200 * SCALE, 200 * SCALE), np.uint8)
@@ -52,7 +57,10 @@ def generate_world(seed: int, size: float = 1.0) -> World:
     navigable = _to_cells(canvas, center)
     _place_boulders(navigable, center, random)
     start = Pose(float(center[0]), float(center[1]), float(random.uniform(-math.pi, math.pi)))
-    return World(f"seed-{seed}", navigable, place_samples(navigable, start, random), start)
+    samples = place_samples(navigable, start, random)
+    for array in (navigable, samples):
+        array.setflags(write=False)
+    return World(f"seed-{seed}", navigable, samples, start)
 
 
 def world_of_map(path: Path, seed: int) -> World:
