@@ -34,6 +34,11 @@ class NodeState:
             self._logger.warning(refusal)
         self._keeper = StateKeeper(file, self._logger.warning)
 
+    @property
+    def pending(self) -> bool:
+        """Whether something was found that was not offered yet."""
+        return bool(self._found)
+
     def resume(self, run: Run, stamp: int, adopt: Callable[[SavedState], None]) -> None:
         """Offer what was found to the node's first frame, if it is of its run and not later.
 
@@ -70,6 +75,11 @@ class NodeState:
         """As StateKeeper.keep."""
         if self._keeper is not None:
             self._keeper.keep(snapshot, at_once)
+
+    def keep_first(self, snapshot: Callable[[], MakeState]) -> None:
+        """As StateKeeper.keep_first."""
+        if self._keeper is not None:
+            self._keeper.keep_first(snapshot)
 
     def close(self, snapshot: Callable[[], MakeState] | None = None) -> None:
         """Keep the last one, unless there is none, and end the thread."""
