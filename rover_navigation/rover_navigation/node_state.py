@@ -6,7 +6,7 @@ from rclpy.node import Node
 
 from rover_common.ros.state import NodeState
 from rover_common.same_robot import check_goes_on, memory_of, odometry_of
-from rover_common.saved_state import SavedState, joined, part_of
+from rover_common.saved_state import Memory, SavedState, joined, part_of
 from rover_common.sensor_types import SensorBatch, WheelOdometry
 from rover_common.state_keeper import MakeState
 from rover_common.types import FIRST_RUN
@@ -52,7 +52,7 @@ class KeptNavigator:
     def _snapshot(self) -> MakeState:
         assert self._newest is not None
         newest, made = self._newest, self._navigator.memory()
-        heard = {"newest": memory_of(newest)}, {}
+        heard: Memory = {"newest": memory_of(newest)}, {}
         return lambda: SavedState(
             FIRST_RUN, newest.stamp, *joined(navigator=made(), odometry=heard)
         )

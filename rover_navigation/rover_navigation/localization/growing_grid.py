@@ -59,16 +59,16 @@ class GrowingGrid:
     def restore(self, memory: Memory) -> None:
         """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
         values, arrays = memory
-        resolution, shape = values["resolution"], tuple(values["shape"])
-        if resolution != self.geometry.resolution or shape[0] != len(self.layers):
-            raise ValueError(f"{shape[0]} layers of {resolution} m, not as these cells")
+        resolution, (count, rows, cols) = values["resolution"], values["shape"]
+        if resolution != self.geometry.resolution or count != len(self.layers):
+            raise ValueError(f"{count} layers of {resolution} m, not as these cells")
         x, y = values["origin"]
-        layers = np.zeros(shape)
+        layers = np.zeros((count, rows, cols))
         cells = arrays["cells"]
         if len(cells) and not 0 <= cells.min() <= cells.max() < layers[0].size:
             raise ValueError("cells beyond the grid")
         layers.reshape(len(layers), -1)[:, cells] = arrays["layers"]
-        self.geometry = GridGeometry(resolution, *shape[1:], float(x), float(y))
+        self.geometry = GridGeometry(resolution, rows, cols, float(x), float(y))
         self.layers = layers
 
 
