@@ -45,7 +45,7 @@ class KeptMission:
         self._sensors, self._frames = sensors, frames
         self._state = NodeState(node, config.state_dir, "heat", VERSION)
         self._odometry: WheelOdometry | None = None  # the newest
-        self._pose: Pose | None = None  # in the map, the newest
+        self._pose: Pose | None = None  # in the map, the newest since there is a map
         self._map_begun = 0  # [ns] of the mission's map; 0 for unknown
         self._progress: Any = None  # at the newest tick
 
@@ -83,9 +83,8 @@ class KeptMission:
 
     @property
     def _has_state(self) -> bool:
-        """Not while what was saved may still be used, nor before the mission has begun."""
-        placed = self._pose is not None and self._odometry is not None
-        return placed and not (self._state.pending or self._core.mission.idle)
+        """Once what was saved has been offered, and the mission has begun."""
+        return self._pose is not None and not self._core.mission.idle
 
     def _adopt(self, saved: SavedState) -> None:
         assert self._odometry is not None

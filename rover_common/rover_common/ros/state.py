@@ -34,11 +34,6 @@ class NodeState:
             self._logger.warning(refusal)
         self._keeper = StateKeeper(file, self._logger.warning)
 
-    @property
-    def pending(self) -> bool:
-        """Whether something was found that was not offered yet."""
-        return bool(self._found)
-
     def resume(self, run: Run, stamp: int, adopt: Callable[[SavedState], None]) -> None:
         """Offer what was found to the node's first frame, if it is of its run and not later.
 
