@@ -31,7 +31,7 @@ from rover_heat.node import HeatNode
 ROOM = Room(box(4.0, 4.0))
 HERE, ORIGIN = Pose(1.5, 1.5, 0.0), Pose(0.0, 0.0, 0.0)
 TICK = 50_000_000  # [ns]
-PATIENCE = 10.0  # [s] of wall time
+PATIENCE = 60.0  # [s] of wall time
 SAMPLE, SAMPLES = 10_000_000, 5  # [ns] between two of the inertial unit, and how many to a tick
 
 
