@@ -30,6 +30,21 @@ VALUES = "values"  # member of the archive: JSON in UTF-8
 Memory = tuple[dict[str, Any], dict[str, NDArray[Any]]]  # values and arrays of a SavedState
 
 
+def joined(**parts: Memory) -> Memory:
+    """The memories of several parts as one."""
+    values = {name: part for name, (part, _) in parts.items()}
+    arrays = {f"{name}.{key}": a for name, (_, part) in parts.items() for key, a in part.items()}
+    return values, arrays
+
+
+def part_of(memory: Memory, name: str) -> Memory:
+    """One of those that were joined; raises KeyError."""
+    values, arrays = memory
+    begin = f"{name}."
+    own = {key.removeprefix(begin): a for key, a in arrays.items() if key.startswith(begin)}
+    return values[name], own
+
+
 class StateError(RoverError, ValueError):
     """A file that is torn, foreign, or of another version."""
 

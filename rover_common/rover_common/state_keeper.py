@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 
 from rover_common.saved_state import SavedState, StateFile
 
@@ -44,6 +44,15 @@ class StateKeeper:
             return
         self._written, self._urgent = now, False
         self._writing = self._pool.submit(self._write, snapshot())
+
+    def keep_first(self, snapshot: Callable[[], MakeState], seconds: float = PERIOD) -> None:
+        """Before something is done that must never be done twice: wait until a copy is written.
+
+        At most so long [s]: a disk that hangs holds up nothing.
+        """
+        self._written, self._urgent = time.monotonic(), False
+        self._writing = self._pool.submit(self._write, snapshot())
+        wait([self._writing], seconds)
 
     def close(self, snapshot: Callable[[], MakeState] | None = None) -> None:
         """Write the last one, unless there is none, and end the thread."""

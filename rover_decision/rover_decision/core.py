@@ -125,8 +125,9 @@ class DecisionCore(Generic[FrameT, DecisionT, PlanT, OverlayT]):
         return self._run
 
     def resume(self, run: Run, mission: Mission[FrameT, DecisionT, PlanT, OverlayT]) -> None:
-        """Go on with a mission that was begun in this run; only before the first frame."""
+        """Go on with a mission that was begun in this run, and has no plan yet."""
         self._run, self._mission = run, mission
+        self._plans.begin(run.start)
 
     def step(self, frame: FrameT) -> DecisionT:
         """Decide about one frame."""

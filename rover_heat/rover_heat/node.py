@@ -40,6 +40,7 @@ from rover_heat.node_config import HeatNodeConfig
 from rover_heat.node_lockstep import HeatLockstep
 from rover_heat.node_reports import HeatReports
 from rover_heat.node_sensors import HeatSensors
+from rover_heat.node_state import KeptMission
 from rover_heat.ramp.hazards import NO_HAZARDS
 from rover_heat.thermal.sensing import SENSORS
 from rover_heat.types import HeatDecision
@@ -64,6 +65,9 @@ class HeatNode(CheckedNode):
         self._core = make_core(config, self._navigator, config.lockstep)
         self._sensors = HeatSensors(self, config.lockstep, self._frame_ids, self._on_heard)
         self._frames = FrameAssembler(config, self._sensors.poses)
+        self._kept = KeptMission(
+            self, config, self._core, self._navigator, self._sensors, self._frames
+        )
         self._grid: GridMap | None = None  # that the mission has
         self._hazards = NO_HAZARDS  # that were sent
         self._decision: HeatDecision | None = None  # of the tick at hand
@@ -90,9 +94,11 @@ class HeatNode(CheckedNode):
             self._timer = self.create_timer(PERIOD, self._on_timer)
 
     def destroy_node(self) -> None:
-        """End the action's goal, the planner's thread and the client, then the node."""
+        """End the action's goal, save the last state, end threads and client, then the node."""
         if hasattr(self, "_reports"):
             self._reports.action.destroy()
+        if hasattr(self, "_kept"):
+            self._kept.close()
         if hasattr(self, "_core"):
             self._core.close()
             self._navigator.destroy()
@@ -155,6 +161,7 @@ class HeatNode(CheckedNode):
         if grid is not None and new_map:
             self._grid = grid
             self._frames.give_map(grid)
+        self._kept.follow(batch)
         frame = self._frames.frame(batch)
         if grid is not None:
             self._core.give_map(stamp, grid)
@@ -163,6 +170,7 @@ class HeatNode(CheckedNode):
             self._frames.begin_run(stamp)
         if grid is not None and (new_map or decision.hazards != self._hazards):
             self._send_hazards(stamp, grid, decision)
+        self._kept.keep(decision)
         self._reports.tell(stamp, frame.run, decision)
         self._diagnose()
 

@@ -22,7 +22,8 @@ from rover_common.sensor_types import SensorBatch
 from rover_heat.node_sensors import HeatSensors
 from rover_navigation.node_client import ActionNavigator
 
-PATIENCE = 2.0  # [s] of wall time; the simulator's is longer
+# [s] of wall time: one that is started again is there by then; the simulator's is longer
+PATIENCE = 4.0
 
 
 class HeatLockstep:

@@ -21,7 +21,7 @@ from rover_common.input_monitor import InputLimits, InputMonitor
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.checked_node import CheckedNode
-from rover_common.ros.conversions import grid_of, stamp_of
+from rover_common.ros.conversions import grid_of, map_begun_of, stamp_of
 from rover_common.ros.diagnostics import input_of
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.transforms import pose_of_transform
@@ -53,6 +53,7 @@ class HeatSensors:
         self.poses = TransformBuffer()
         self.grid: GridMap | None = None
         self.grid_stamp = 0  # [ns]
+        self.map_begun = 0  # [ns] which tells its frame apart; 0 for unknown
         thermal = self._on_thermal
         listened: list[tuple[Any, str, Callable[[Any], None], Any]] = [
             (LaserScan, topics.SCAN, self._on_scan, qos.SCAN),
@@ -112,6 +113,7 @@ class HeatSensors:
 
     def _on_map(self, message: OccupancyGrid) -> None:
         self.grid, self.grid_stamp = grid_of(message), stamp_of(message.header.stamp)
+        self.map_begun = map_begun_of(message)
 
     def _on_transform(self, link: TransformStamped) -> None:
         frames, stamp = self._frames, stamp_of(link.header.stamp)

@@ -11,6 +11,7 @@ from rover_common.frames import BurgerFrameConfig
 from rover_common.input_monitor import InputLimits
 from rover_common.yaml_file import YamlFileError, read_yaml
 from rover_heat.config import HeatConfig
+from rover_heat.node_config import HeatNodeConfig
 
 SECTION, PARAMETERS = "/**/heat_node", "ros__parameters"
 
@@ -27,10 +28,10 @@ def load_preset(path: Path) -> HeatConfig:
         raise PresetError(str(error)) from error
     except (KeyError, TypeError, ValueError) as error:
         raise PresetError(f"{path}: no section '{SECTION}' with '{PARAMETERS}'") from error
-    # A node's parameters besides those of the mission: frames and limits of its inputs.
+    # A node's parameters besides those of the mission: how it is connected.
     known = {
         field.name: field
-        for kind in (HeatConfig, InputLimits, BurgerFrameConfig)
+        for kind in (HeatNodeConfig, InputLimits, BurgerFrameConfig)
         for field in fields(kind)
     }
     for name, value in values.items():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from rover_common.sensor_types import Imu
 from rover_heat.config import HeatConfig
@@ -47,6 +48,23 @@ class TiltMonitor:
         self.lean = Lean()
         self.share = 0.0  # of what the rules allow; more than 1 is a tilt
         self.measured = False  # what is level
+
+    def memory(self) -> dict[str, Any]:
+        """What was measured at rest, and the running mean, for JSON."""
+        return {
+            "measured": self.measured,
+            "level": list(self._meter.level),
+            "bias": self._bias,
+            "mean_pitch": self._mean_pitch,
+            "count": self._count,
+        }
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        roll, pitch = memory["level"]
+        self._meter.level = float(roll), float(pitch)
+        self._bias, self.measured = float(memory["bias"]), bool(memory["measured"])
+        self._mean_pitch, self._count = float(memory["mean_pitch"]), int(memory["count"])
 
     def update(self, imus: Iterable[Imu]) -> None:
         """What has come since the last tick; without any, all stays as it was."""

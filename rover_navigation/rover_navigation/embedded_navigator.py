@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from rover_common.burger import BurgerModel
 from rover_common.geometry import Pose, compose
+from rover_common.saved_state import Memory
 from rover_common.sensor_types import SensorBatch, Twist
 from rover_common.types import GridMap
 from rover_navigation.control.goal_run import GoalRun
@@ -62,6 +64,35 @@ class EmbeddedNavigator:
     def is_ready(self) -> bool:
         """Whether there is a map and a pose in it."""
         return self._localizer.is_ready and not self._localizer.is_lost
+
+    @property
+    def has_map(self) -> bool:
+        """Also while the pose in it is searched."""
+        return self._localizer.is_ready
+
+    @property
+    def map_begun(self) -> int:
+        """[ns] When its map was begun, which tells it from another one; 0 before there is one."""
+        return self._localizer.map.begun
+
+    def memory(self) -> Callable[[], Memory]:
+        """Map, pose and level as they are now, of one that has a map.
+
+        The copy is made at once; what is called makes a memory of it, in any thread.
+        """
+        return self._localizer.memory()
+
+    def restore(self, memory: Memory) -> None:
+        """Go on with the map and the pose whose `memory` it is; only before there is a map.
+
+        Goals and blocked places are not in it. Raises ValueError, TypeError or KeyError for
+        anything else, and changes nothing then.
+        """
+        localizer = Localizer(self._model, self._config.resolution)
+        localizer.restore(memory)
+        self._localizer = localizer
+        self._relocations = localizer.relocations
+        self._given = (localizer.map.cells.grid(),)
 
     def go_to(self, pose: Pose, tolerance: float) -> EmbeddedGoal:
         """Drive to a pose of the map; a goal that cannot be driven to has failed at once.

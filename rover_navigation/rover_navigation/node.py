@@ -40,6 +40,7 @@ from rover_navigation.conversions import path_of, tick_message_of
 from rover_navigation.embedded_navigator import EmbeddedNavigator, NavigatorOutput
 from rover_navigation.node_action import NavigateServer
 from rover_navigation.node_config import NavigatorNodeConfig
+from rover_navigation.node_state import KeptNavigator
 from rover_navigation.types import NO_POINTS
 
 PERIOD = 0.05  # [s] between two steps
@@ -54,6 +55,7 @@ class NavigatorNode(CheckedNode):
         self._frames = declare_parameters(self, BurgerFrameConfig).frames()
         self._config = config = declare_parameters(self, NavigatorNodeConfig)
         self._navigator = EmbeddedNavigator(BURGER, BURGER_SCALE, config, config.seed)
+        self._kept = KeptNavigator(self, config.state_dir, self._navigator)
         self._collector = BatchCollector()
         self._hazards = 0  # [ns] stamp of the newest hazard map
         self._drove = False  # at the step before
@@ -106,9 +108,11 @@ class NavigatorNode(CheckedNode):
         return subscriptions
 
     def destroy_node(self) -> None:
-        """End the action's goal, then the node."""
+        """End the action's goal, save the last state, then end the node."""
         if hasattr(self, "_server"):
             self._server.destroy()
+        if hasattr(self, "_kept"):
+            self._kept.close()
         super().destroy_node()
 
     def _on_scan(self, message: LaserScan) -> None:
@@ -150,12 +154,14 @@ class NavigatorNode(CheckedNode):
             self._step(batch)
 
     def _step(self, batch: SensorBatch) -> None:
+        self._kept.resume(batch)
         with self._diagnostics.ticks:
             output = self._navigator.step(batch)
         self._last = output
         self._send_transforms(batch.odometry, output)
         if output.map is not None:
-            self._map.publish(grid_message_of(output.stamp, output.map, self._frames))
+            begun = self._navigator.map_begun
+            self._map.publish(grid_message_of(output.stamp, output.map, self._frames, begun))
         if output.twist is not None:
             self._velocity.publish(output.stamp, output.twist)
         elif self._drove and not self._config.lockstep:  # there the mission answers without a goal
@@ -168,6 +174,7 @@ class NavigatorNode(CheckedNode):
         counts["relocations"] = output.relocations
         self._diagnostics.set_warning("navigator", "" if self._navigator.is_ready else output.why)
         self._answer(output)
+        self._kept.keep()
 
     def _send_transforms(
         self, odometry: tuple[WheelOdometry, ...], output: NavigatorOutput

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rover_common.config import parameter
+from rover_common.config import STATE_DIR, parameter
 from rover_navigation.navigator_config import NavigatorConfig
 
 SWITCH = ("auto", "true", "false")
@@ -25,6 +25,7 @@ class NavigatorNodeConfig(NavigatorConfig):
         "whether to send odom -> base_footprint: true, false, or auto (where the robot does not)",
         choices=SWITCH,
     )
+    state_dir: str = parameter(*STATE_DIR)
     lockstep: bool = parameter(
         False, "step with every sensor_tick instead of 20 times a second, and answer on it"
     )

@@ -57,6 +57,24 @@ def test_only_a_state_that_is_due_is_taken(file, warnings):
     assert snapshots.makers != [threading.current_thread().name]
 
 
+def test_what_is_kept_first_is_written_before_anything_else_is_done(file, warnings):
+    keeper, snapshots = StateKeeper(file, warnings.append, LONG), Snapshots()
+    keeper.keep(snapshots)
+    keeper.keep_first(snapshots)
+    assert newest(file) == 2
+    keeper.close()
+
+
+def test_a_disk_that_hangs_holds_up_what_is_kept_first_for_some_time_only(file, warnings):
+    keeper, snapshots = StateKeeper(file, warnings.append, LONG), Snapshots()
+    snapshots.gate.clear()
+    keeper.keep_first(snapshots, seconds=0.05)
+    assert file.read() == ([], [])
+    snapshots.gate.set()
+    keeper.close()
+    assert newest(file) == 1
+
+
 def test_what_must_not_be_forgotten_is_saved_at_once(file, warnings):
     keeper, snapshots = StateKeeper(file, warnings.append, LONG), Snapshots()
     snapshots.gate.clear()

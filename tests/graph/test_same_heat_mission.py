@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from heat_lane import lane
 from rclpy.node import Node
 from rover_interfaces.msg import HeatState
 
 from burger_simulator.node import BurgerNode
 from burger_simulator.simulation import TICK, BurgerSimulation
 from burger_simulator.truth import Truth
-from burger_simulator.world.maze import HeatSource, Maze, Ramp, SensorErrors, Wall
 from rover_common import topics
-from rover_common.geometry import Pose
 from rover_common.ros import qos
 from rover_common.ros.conversions import stamp_of
 from rover_heat.config import HeatConfig
@@ -28,21 +27,6 @@ from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
 SEED, SAMPLES, NAVIGATOR_SEED = 3, 100, 5
 TICKS = 780  # beyond the first launch, up to the ramp
 MISSION = {"deliver": "at_once"}
-WEST, EAST, SIDE = -0.5, 2.2, 0.33  # [m] of the lane
-
-
-def lane() -> Maze:
-    """A source behind the robot, and a ramp before it, which it meets without having seen it."""
-    walls = (
-        Wall(WEST, -SIDE, EAST, -SIDE),
-        Wall(EAST, -SIDE, EAST, SIDE),
-        Wall(EAST, SIDE, WEST, SIDE),
-        Wall(WEST, SIDE, WEST, -SIDE),
-    )
-    source = HeatSource(x=WEST + 0.0025, y=0.0, normal=0.0, height=0.12, sigma=0.1, excess=10.0)
-    ramp, start = Ramp(0.3, 0.0, 0.0, "north-east"), Pose(0.0, 0.0, 0.0)
-    size = (EAST - WEST, 2 * SIDE)
-    return Maze("lane", *size, walls, (source,), ramp, start, 23.0, SensorErrors())
 
 
 def run_in_process() -> tuple[list[HeatStep], list[Truth]]:

@@ -10,6 +10,7 @@ from readme_tables import ROOT, column, table
 
 from rover_heat.config import HeatConfig
 from rover_heat.mission.chart import State
+from rover_heat.node_config import HeatNodeConfig
 from rover_heat.presets import PresetError, load_preset
 
 FOLDER = ROOT / "rover_bringup" / "config"
@@ -53,6 +54,12 @@ def test_what_a_preset_cannot_ask_for_is_refused(tmp_path, line, problem):
         load_preset(path)
 
 
+def test_a_preset_may_say_how_the_node_is_connected(tmp_path):
+    path = tmp_path / "preset.yaml"
+    path.write_text('/**/heat_node:\n  ros__parameters:\n    state_dir: ""\n    payloads: 2\n')
+    assert load_preset(path) == HeatConfig(payloads=2)
+
+
 @pytest.mark.parametrize("text", ["", "[]", "/**/other:\n  ros__parameters: {}\n", "{"])
 def test_a_file_that_is_no_preset_is_refused(tmp_path, text):
     path = tmp_path / "preset.yaml"
@@ -65,11 +72,12 @@ def test_a_file_that_is_no_preset_is_refused(tmp_path, text):
 
 def test_the_readme_lists_every_parameter():
     rows = table(README, "Parameters")
-    assert [row["parameter"] for row in rows] == [field.name for field in fields(HeatConfig)]
-    for row, field in zip(rows, fields(HeatConfig), strict=True):
+    assert [row["parameter"] for row in rows] == [field.name for field in fields(HeatNodeConfig)]
+    for row, field in zip(rows, fields(HeatNodeConfig), strict=True):
         info = field.metadata["parameter"]
-        limits = f"{info.minimum} to {info.maximum}"
-        wanted = ", ".join(info.choices) or ("False, True" if info.minimum is None else limits)
+        limits = "" if info.minimum is None else f"{info.minimum} to {info.maximum}"
+        switch = "False, True" if isinstance(field.default, bool) else limits
+        wanted = ", ".join(info.choices) or switch
         assert row["default"] == str(field.default), field.name
         assert row["range"].replace("`", "") == wanted, field.name
 

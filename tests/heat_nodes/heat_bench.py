@@ -43,6 +43,8 @@ class Robot(Node):
         self.stamp = 10_000_000_000  # [ns] of the clock
         self.shift = 0  # [ns] that the sensors' clock is ahead of it
         self.pixels = 64  # of a thermal frame
+        self.says = HERE  # its odometry, wherever it is
+        self.origin = ORIGIN  # of the odometry in the map
         publish = self.create_publisher
         self.clock = publish(Clock, "/clock", qos.CLOCK)
         self.scan = publish(LaserScan, topics.SCAN, qos.SCAN)
@@ -67,10 +69,10 @@ class Robot(Node):
         stamp = self.stamp + self.shift
         for before in reversed(range(SAMPLES)):
             self.imu.publish(sensors.imu_message_of(imu(stamp - before * SAMPLE)))
-        odometry = WheelOdometry(stamp, HERE, Twist())
+        odometry = WheelOdometry(stamp, self.says, Twist())
         self.odometry.publish(sensors.wheel_odometry_message_of(odometry))
-        body = transform_message_of(stamp, frames.ODOM, frames.BASE_FOOTPRINT, HERE)
-        correction = transform_message_of(stamp, frames.MAP, frames.ODOM, ORIGIN)
+        body = transform_message_of(stamp, frames.ODOM, frames.BASE_FOOTPRINT, self.says)
+        correction = transform_message_of(stamp, frames.MAP, frames.ODOM, self.origin)
         self.tf.publish(TFMessage(transforms=[body, correction]))
         self.scan.publish(sensors.laser_scan_message_of(ROOM.scan(HERE, stamp)))
         for number, publisher in enumerate(self.thermal, 1):
@@ -81,8 +83,8 @@ class Robot(Node):
     def set_clock(self) -> None:
         self.clock.publish(Clock(clock=time_of(self.stamp)))
 
-    def send_map(self, grid: GridMap) -> None:
-        self.map.publish(grid_message_of(self.stamp, grid))
+    def send_map(self, grid: GridMap, begun: int | None = None) -> None:
+        self.map.publish(grid_message_of(self.stamp, grid, begun=begun))
 
 
 class HeatBench:
@@ -93,11 +95,29 @@ class HeatBench:
         self.robot: Robot = ros.add(Robot)
         self.velocities = self.robot.take(TwistStamped)
         self.server: StandInNav2 = ros.add(StandInNav2)
-        self.node: HeatNode = ros.add(HeatNode, use_sim_time=True, **parameters)
+        self._parameters = parameters
         self.speaks = True  # whether the server sends feedback while it has a goal
-        heard = [self.robot.clock, self.robot.scan, self.robot.tf, self.robot.map]
-        self.wait(lambda: all(each.get_subscription_count() > 0 for each in heard))
+        self.start()
+
+    def start(self) -> None:
+        """A node."""
+        self.node: HeatNode = self.ros.add(HeatNode, use_sim_time=True, **self._parameters)
+        self.wait(lambda: all(each.get_subscription_count() > 0 for each in self._heard))
         self.wait(lambda: self.node._navigator.is_present and self.node._velocity.connected)
+
+    @property
+    def _heard(self) -> list[Any]:
+        robot = self.robot
+        return [robot.clock, robot.scan, robot.imu, robot.tf, robot.map, *robot.thermal]
+
+    def again(self, seconds: float = 3.0) -> None:
+        """The node has ended, and after a while there is another one."""
+        if self.server.active:
+            self.server.succeed()
+        self.ros.end(self.node)
+        self.wait(lambda: all(each.get_subscription_count() == 0 for each in self._heard))
+        self.robot.stamp += round(seconds / 0.05) * TICK
+        self.start()
 
     def wait(self, predicate: Callable[[], Any]) -> None:
         assert self.ros.spin_until(predicate, timeout=PATIENCE)

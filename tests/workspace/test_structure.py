@@ -20,7 +20,7 @@ from rover_common.input_monitor import InputLimits
 from rover_common.ros.lifecycle import LifecycleConfig
 from rover_dashboard.config import DashboardConfig
 from rover_decision.missions.sample_return.config import DecisionConfig
-from rover_heat.config import HeatConfig
+from rover_heat.node_config import HeatNodeConfig
 from rover_navigation.node_config import NavigatorNodeConfig
 from rover_perception.config import PerceptionConfig
 from rover_recorder.config import RecorderConfig
@@ -40,7 +40,7 @@ CONFIGS = {
     "simulator_node": (SimulatorConfig, LifecycleConfig),
     "dashboard_node": (DashboardConfig,),
     "recorder_node": (RecorderConfig,),
-    "heat_node": (HeatConfig, InputLimits, BurgerFrameConfig),
+    "heat_node": (HeatNodeConfig, InputLimits, BurgerFrameConfig),
     "burger_node": (BurgerConfig, LifecycleConfig, SensorFrameConfig),
     "navigator_node": (NavigatorNodeConfig, InputLimits, BurgerFrameConfig),
 }

@@ -157,10 +157,12 @@ def rocks_of(message: RockTrackArray) -> tuple[RockTrack, ...]:
     )
 
 
-def grid_message_of(stamp: int, grid: GridMap, frames: Frames = FRAMES) -> OccupancyGrid:
-    """In the map frame."""
+def grid_message_of(
+    stamp: int, grid: GridMap, frames: Frames = FRAMES, begun: int | None = None
+) -> OccupancyGrid:
+    """In the map frame; begun: [ns] when this map was begun, where that tells its frame apart."""
     message = OccupancyGrid(header=header_of(stamp, frames.map))
-    message.info.map_load_time = message.header.stamp
+    message.info.map_load_time = message.header.stamp if begun is None else time_of(begun)
     message.info.resolution = grid.resolution
     message.info.height, message.info.width = grid.cells.shape
     message.info.origin.position = Point(x=grid.origin_x, y=grid.origin_y, z=0.0)
@@ -178,6 +180,15 @@ def grid_of(message: OccupancyGrid) -> GridMap:
     cells = np.frombuffer(message.data, np.int8).reshape(info.height, info.width)
     resolution, origin = round(info.resolution, 6), info.origin.position
     return GridMap(resolution, origin.x, origin.y, cells)
+
+
+def map_begun_of(message: OccupancyGrid) -> int:
+    """[ns] When the map was begun, which tells its frame from that of another map; 0 for unknown.
+
+    Nothing is told by a load time that is the map's own stamp, as of one that is made each time.
+    """
+    loaded = stamp_of(message.info.map_load_time)
+    return 0 if loaded == stamp_of(message.header.stamp) else loaded
 
 
 def command_message_of(

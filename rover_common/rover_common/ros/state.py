@@ -71,6 +71,11 @@ class NodeState:
         if self._keeper is not None:
             self._keeper.keep(snapshot, at_once)
 
+    def keep_first(self, snapshot: Callable[[], MakeState]) -> None:
+        """As StateKeeper.keep_first."""
+        if self._keeper is not None:
+            self._keeper.keep_first(snapshot)
+
     def close(self, snapshot: Callable[[], MakeState] | None = None) -> None:
         """Keep the last one, unless there is none, and end the thread."""
         if self._keeper is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from typing import Any
 
 from rover_common.geometry import Pose, bearing_to, distance_between
 from rover_common.sensor_types import Twist
@@ -26,6 +27,14 @@ class BackTrack:
         far = not self._poses or distance_between(self._poses[-1], pose) >= SPACING
         if level and far:
             self._poses.append(pose)
+
+    def memory(self) -> list[Any]:
+        """For JSON."""
+        return [[pose.x, pose.y, pose.yaw] for pose in self._poses]
+
+    def restore(self, memory: list[Any]) -> None:
+        """Take what `memory` gave; raises ValueError or TypeError for anything else."""
+        self._poses.extend([Pose(float(x), float(y), float(yaw)) for x, y, yaw in memory])
 
     def targets(self, pose: Pose) -> list[Pose]:
         """Poses to back to, the newest first of those that are far enough."""

@@ -109,6 +109,24 @@ class Machine(StateMachine[State, Event]):
     def __init__(self) -> None:
         super().__init__(HeatChart, State)
 
+    @property
+    def phase(self) -> list[Event]:
+        """What leads from the beginning to where a mission stays that is started again.
+
+        All else begins anew: inputs first, then what the agenda says.
+        """
+        stays = {
+            State.DONE: Event.finish,
+            State.FAILED: Event.gave_up,
+            State.PAUSED: Event.pause,
+        }
+        return [stays[self.state]] if self.state in stays else []
+
+    def enter(self, phase: list[Event]) -> None:
+        """Go where the mission was when that was its phase; only from the beginning."""
+        for event in phase:
+            self.handle(event)
+
 
 def transitions() -> set[Transition[State, Event]]:
     """All arrows, those of the groups and of the history taken apart."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,20 @@ class GoalBook:
     _failures: list[_Failure] = field(default_factory=list)
     _visited: list[tuple[float, float]] = field(default_factory=list)
     _tries: dict[tuple[int, int], int] = field(default_factory=dict)  # by face [cells]
+
+    def memory(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "failures": [dict(vars(failure)) for failure in self._failures],
+            "visited": list(self._visited),
+            "tries": [[*key, tries] for key, tries in self._tries.items()],
+        }
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        self._failures = [_Failure(**each) for each in memory["failures"]]
+        self._visited = [(float(x), float(y)) for x, y in memory["visited"]]
+        self._tries = {(int(row), int(col)): int(n) for row, col, n in memory["tries"]}
 
     def reached(self, goal: HeatGoal) -> None:
         """The robot has looked from there: what there was to see has been seen."""

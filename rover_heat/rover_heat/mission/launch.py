@@ -8,14 +8,13 @@ from enum import Enum
 from rover_common.geometry import bearing_to, wrap_angle
 from rover_common.sensor_types import Twist
 from rover_heat.mission.ownership import STAND
-from rover_heat.mission.parts import HeatParts
+from rover_heat.mission.parts import SEQUENCE_SECONDS, HeatParts
 from rover_heat.mission.tick import HeatTick
 from rover_heat.tilt import FIT_TILT
 from rover_heat.types import HeatSource
 
 ALIGN_SECONDS = 5.0  # [s] of turning to the warm column; then to where the source is known to be
 MISSED_SECONDS = 12.0  # [s] without a signal: what keeps the robot from standing still stays
-SEQUENCE_SECONDS = 15.0  # [s] without a report, after which it counts as launched
 ALIGNED = math.radians(2.5)  # [rad]
 STILL_SECONDS = 0.4  # [s]
 STILL_SPEED, STILL_TURN = 0.01, 0.03  # [m/s], [rad/s]

@@ -10,8 +10,10 @@ from dataclasses import replace
 from functools import partial
 
 from rover_common.geometry import Pose
+from rover_common.saved_state import Memory, joined, part_of
 from rover_decision.types import Request
 from rover_heat.config import HeatConfig
+from rover_heat.mission import memory
 from rover_heat.mission.chart import Event, Machine, State
 from rover_heat.mission.parts import HeatParts
 from rover_heat.mission.states import RECOVERING, make_states
@@ -124,6 +126,32 @@ class HeatMission:
             seek_ramp=self.state is State.ATTEMPTING_RAMP,
         )
 
+    def memory(self) -> Memory:
+        """What a mission needs to know that goes on with this one."""
+        limit = self._parts.time_limit
+        values = {
+            "phase": [event.name for event in self._machine.phase],
+            "time_limit": None if limit == self._config.time_limit else limit,
+            "interrupts": self._interrupts,
+            "failure": self._failure,
+            "explored": self._explored,
+        }
+        return joined(mission=(values, {}), parts=memory.memory_of(self._parts))
+
+    def restore(self, known: Memory, places: bool = True) -> None:
+        """Go on with the mission whose `memory` it is, in its phase; only before the first frame.
+
+        places: also what it knew of its map. Raises ValueError, TypeError or KeyError for anything
+        else, and is not to be used then.
+        """
+        values, _ = part_of(known, "mission")
+        memory.restore(self._parts, part_of(known, "parts"), places)
+        self.limit_time(float(values["time_limit"] or 0.0))
+        self._states[State.TILT_INTERRUPT].recoveries = int(values["interrupts"])
+        self._failure = str(values["failure"])
+        self._explored = float(values["explored"]) if places else 0.0
+        self._machine.enter([Event[name] for name in values["phase"]])
+
     def overlay(self) -> HeatOverlay:
         """What it knows about places."""
         parts, plan = self._parts, self._plan
@@ -166,6 +194,10 @@ class HeatMission:
         self._states[self.state].enter(tick, before)
         return replace(tick, health=replace(tick.health, stopped_moving=False))
 
+    @property
+    def _interrupts(self) -> int:
+        return sum(self._states[state].recoveries for state in RECOVERING)
+
     def _progress(self, tick: HeatTick) -> HeatProgress:
         parts = self._parts
         begun = tick.time if parts.begun is None else parts.begun
@@ -177,7 +209,7 @@ class HeatMission:
             sources_known=len(parts.sources.sources),
             sources_delivered=parts.sources.delivered,
             payloads=parts.agenda.payloads,
-            interrupts=sum(self._states[state].recoveries for state in RECOVERING),
+            interrupts=self._interrupts,
             ramp_known=bool(parts.ramps.ramps),
             ramp_done=parts.ramps.done,
             distance=parts.inputs.distance,

@@ -29,6 +29,7 @@ from rover_navigation.plan_scheduler import PlanStatus
 CELL = 0.05  # [m] of the map
 TRAIL = 0.10  # [m] between points of the trail
 FORGET = 1.0  # [s] of fixes that a jump of the pose makes void
+SEQUENCE_SECONDS = 15.0  # [s] of a launch without a report, after which it counts as done
 SLACK = 0.01  # [s] that a tick may come early
 
 
@@ -54,6 +55,7 @@ class HeatParts:
     time_limit: float = math.inf  # [s] of mission time
     start: Pose | None = None  # where the robot was at first
     navigator_seen: float = -math.inf  # [s] when it was last ready
+    launcher_works_until: float = -math.inf  # [s] at most: only a restart asks for it
     plan_stamp: int = -1  # [ns] of the newest plan
     plan_since: float = 0.0  # [s] from when on plans are expected
     scan: LaserScan | None = None  # the newest
@@ -89,6 +91,8 @@ class HeatParts:
         self.inputs.update(frame)
         self.tilt.update(frame.imus)
         self._sense(frame)
+        if frame.launches_done > 0:
+            self.launcher_works_until = -math.inf
         if self.inputs.jump > JUMP:
             self.sensing.forget_since(time - FORGET)
         if self.navigator.is_ready:
@@ -101,6 +105,11 @@ class HeatParts:
             self.trail.drop(pose)
         self.agenda.update((time - self.begun) / self.time_limit)
         return self._health(frame, plans)
+
+    def spend_payload(self, time: float) -> None:
+        """The launcher is signalled at a time [s]."""
+        self.agenda.payloads -= 1
+        self.launcher_works_until = time + SEQUENCE_SECONDS
 
     def _sense(self, frame: HeatFrame) -> None:
         """At the fast rate: scans and thermal frames of the ticks since the last time."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,21 @@ class RampBook:
     hazards: Hazards = field(default_factory=Hazards)
     approaches: tuple[StandOff, ...] = ()  # of each ramp, in the newest plan that knows them all
     done: bool = False  # stood on its flat part
+    served: bool = False  # stands there, and the last payload is released
+
+    def memory(self) -> dict[str, Any]:
+        """For JSON. Who is killed on top has been there: nothing but a look around is left."""
+        return {
+            "ramps": [dict(vars(ramp)) for ramp in self.ramps],
+            "hazards": self.hazards.memory(),
+            "done": self.done or self.served,
+        }
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        self.ramps = tuple(Ramp(**ramp) for ramp in memory["ramps"])
+        self.hazards = Hazards.of(memory["hazards"])
+        self.done = bool(memory["done"])
 
     def meet(self, pose: Pose, lean: Lean, hits: NDArray[np.float64]) -> Ramp:
         """The robot tilts at a pose: another ramp, the same one again, or one met from its side.

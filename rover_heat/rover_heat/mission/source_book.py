@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
-from rover_common.geometry import wrap_angle
+from rover_common.geometry import Pose, wrap_angle
 from rover_heat.config import HeatConfig, thermal_yaw
 from rover_heat.planning.types import HeatPlan, StandOff
 from rover_heat.thermal.detection import AZIMUTHS, PIXEL
@@ -38,12 +39,37 @@ class _Entry:
     cold: int = 0  # frames that should have shown it
     missing: bool = False  # in the newest plan
 
+    def memory(self) -> dict[str, Any]:
+        """For JSON."""
+        poses = [(stand.pose, stand.seconds) for stand in self.stands]
+        stands = [[pose.x, pose.y, pose.yaw, seconds] for pose, seconds in poses]
+        return vars(self) | {"source": dict(vars(self.source)), "stands": stands}
+
+    @classmethod
+    def of(cls, memory: dict[str, Any]) -> _Entry:
+        """What `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        source = memory["source"]
+        covariance = tuple(map(float, source["covariance"]))
+        stands = tuple(StandOff(Pose(x, y, yaw), s) for x, y, yaw, s in memory["stands"])
+        source = HeatSource(**source | {"covariance": covariance})
+        return cls(**memory | {"source": source, "stands": stands})
+
 
 @dataclass
 class SourceBook:
     config: HeatConfig
     _entries: dict[int, _Entry] = field(default_factory=dict)
     _next: int = 1
+
+    def memory(self) -> dict[str, Any]:
+        """For JSON."""
+        return {"next": self._next, "entries": [e.memory() for e in self._entries.values()]}
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        entries = [_Entry.of(each) for each in memory["entries"]]
+        self._entries = {entry.source.id: entry for entry in entries}
+        self._next = int(memory["next"])
 
     def update(self, plan: HeatPlan) -> None:
         """A new plan: its groups are old sources, seen better, or new ones."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
@@ -43,6 +44,20 @@ class Hazards:
 
     strips: tuple[Strip, ...] = ()
     discs: tuple[BlockedPlace, ...] = ()
+
+    def memory(self) -> dict[str, Any]:
+        """For JSON."""
+        strips = [
+            [strip.start.x, strip.start.y, strip.start.yaw, strip.length, strip.width]
+            for strip in self.strips
+        ]
+        return {"strips": strips, "discs": [dict(vars(disc)) for disc in self.discs]}
+
+    @classmethod
+    def of(cls, memory: dict[str, Any]) -> Hazards:
+        """What `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        strips = (Strip(Pose(x, y, yaw), *size) for x, y, yaw, *size in memory["strips"])
+        return cls(tuple(strips), tuple(BlockedPlace(**disc) for disc in memory["discs"]))
 
     def with_disc(self, pose: Pose) -> Hazards:
         """Also where the robot tilted, or stood before something that it does not see."""

@@ -98,6 +98,11 @@ class Coverage:
         for key in _keys(faces).tolist():
             self._sectors[key] = (1 << SECTORS) - 1
 
+    def restore(self, examined: Examined) -> None:
+        """Take a snapshot; raises ValueError for what is none."""
+        pairs = zip(examined.keys.tolist(), examined.sectors.tolist(), strict=True)
+        self._sectors = dict(pairs)
+
     def snapshot(self) -> Examined:
         """A copy that stays as it is."""
         if not self._sectors:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +47,26 @@ class Fix:
     # One surface alone, seen well enough: past a wall's end, or along a wall, a pixel's width is
     # too much to tell where the heat is.
     sharp: bool = True
+
+
+def arrays_of(fixes: Sequence[Fix]) -> dict[str, NDArray[Any]]:
+    """Fixes as arrays of n rows each."""
+    numbers = [(f.stamp, f.sensor, *f.pixel, f.sharp) for f in fixes]
+    values = [(f.x, f.y, *f.covariance, f.normal, f.range, f.peak) for f in fixes]
+    return {
+        "numbers": np.array(numbers, np.int64).reshape(-1, 5),
+        "values": np.array(values, float).reshape(-1, 9),
+    }
+
+
+def fixes_of(arrays: dict[str, NDArray[Any]]) -> list[Fix]:
+    """What `arrays_of` gave; raises ValueError or KeyError for anything else."""
+    fixes = []
+    rows = zip(arrays["numbers"].tolist(), arrays["values"].tolist(), strict=True)
+    for (stamp, sensor, row, col, sharp), (x, y, xx, xy, yx, yy, normal, away, peak) in rows:
+        place = x, y, (xx, xy, yx, yy), normal, away, peak
+        fixes.append(Fix(stamp, sensor, (row, col), *place, sharp=bool(sharp)))
+    return fixes
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections import Counter
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, wrap_angle
+from rover_common.saved_state import Memory
 from rover_common.sensor_types import ThermalFrame
 from rover_heat.config import HeatConfig, thermal_flip, thermal_yaw
-from rover_heat.thermal.coverage import Coverage
+from rover_heat.thermal.coverage import Coverage, Examined
 from rover_heat.thermal.detection import WarmPatch, find_patch
-from rover_heat.thermal.fix import Fix, View, make_fix
+from rover_heat.thermal.fix import Fix, View, arrays_of, fixes_of, make_fix
 from rover_heat.thermal.scan_hits import ScanHits
 from rover_heat.thermal.stuck_pixels import StuckPixels
 from rover_heat.thermal.validation import ThermalFrameError, valid_celsius
@@ -56,6 +58,32 @@ class ThermalSensing:
         self.fixes: list[Fix] = []
         self.views: list[tuple[View, Columns]] = []  # of this tick, that were fit
         self.dropped: Counter[str] = Counter()  # frames, by reason
+
+    def memory(self) -> dict[str, Any]:
+        """Of the sensors themselves, for JSON."""
+        return {
+            str(number): {"medians": list(sensor.medians), "stuck": sensor.stuck.memory()}
+            for number, sensor in self._sensors.items()
+        }
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        for number, sensor in self._sensors.items():
+            own = memory[str(number)]
+            sensor.medians = [float(median) for median in own["medians"]]
+            sensor.stuck.restore(own["stuck"])
+
+    def places(self) -> Memory:
+        """What was found where."""
+        examined = self.coverage.snapshot()
+        cells: dict[str, NDArray[Any]] = {"keys": examined.keys, "sectors": examined.sectors}
+        return {}, arrays_of(self.fixes) | cells
+
+    def restore_places(self, memory: Memory) -> None:
+        """Take what `places` gave; raises ValueError or KeyError for anything else."""
+        arrays = memory[1]
+        self.fixes = fixes_of(arrays)
+        self.coverage.restore(Examined(arrays["keys"], arrays["sectors"]))
 
     def update(self, frame: HeatFrame) -> None:
         """One tick."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,17 @@ class StuckPixels:
     @property
     def count(self) -> int:
         return int(self._stuck.sum())
+
+    def memory(self) -> list[Any]:
+        """Rows and columns of those that are left out, for JSON."""
+        return np.argwhere(self._stuck).tolist()
+
+    def restore(self, memory: list[Any]) -> None:
+        """Take what `memory` gave; raises ValueError or TypeError for anything else."""
+        pixels = np.array(memory, int).reshape(-1, 2)
+        if ((pixels < 0) | (pixels >= PIXELS)).any():
+            raise ValueError("no such pixel")
+        self._stuck[tuple(pixels.T)] = True
 
     def mended(self, celsius: NDArray[np.float64]) -> NDArray[np.float64]:
         """The frame (8, 8) [C] without what they say."""

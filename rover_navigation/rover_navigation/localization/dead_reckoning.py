@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rover_common.geometry import Pose, compose, distance_between, inverse
+from rover_common.same_robot import memory_of, odometry_of
 from rover_common.sensor_types import WheelOdometry
 from rover_navigation.localization.pose_buffer import Trajectory
 
@@ -20,11 +23,33 @@ class DeadReckoning:
         self._pose = Pose(0.0, 0.0, 0.0)
         self.newest: WheelOdometry | None = None
         self.jumps = 0
+        self._resumes = False  # what comes next follows a gap
+
+    def memory(self) -> dict[str, Any]:
+        """But for the track, for JSON."""
+        pose, newest = self._pose, self.newest
+        return {
+            "bias": self._bias,
+            "pose": [pose.x, pose.y, pose.yaw],
+            "newest": None if newest is None else memory_of(newest),
+        }
+
+    def restore(self, memory: dict[str, Any]) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else.
+
+        The message that follows is no jump, however far away: the robot has driven on meanwhile.
+        """
+        x, y, yaw = memory["pose"]
+        self._bias, self._pose = float(memory["bias"]), Pose(float(x), float(y), float(yaw))
+        self.newest = odometry_of(memory["newest"])
+        self._resumes = True
 
     def add(self, odometry: WheelOdometry) -> None:
         """One message."""
         last, self.newest = self.newest, odometry
-        if last is not None and distance_between(last.pose, odometry.pose) > JUMP:
+        resumes, self._resumes = self._resumes, False
+        far = last is not None and distance_between(last.pose, odometry.pose) > JUMP
+        if far and not resumes:
             self.jumps += 1
         elif last is not None:
             moved = compose(inverse(last.pose), odometry.pose)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.grid import GridGeometry
+from rover_common.saved_state import Memory
 
 GROWTH = 20  # [cells] at once
 
@@ -37,6 +40,36 @@ class GrowingGrid:
         )
         if (down, up, left, right) != (0, 0, 0, 0):
             self.layers = np.pad(self.layers, ((0, 0), (down, up), (left, right)))
+
+    def memory(self) -> Callable[[], Memory]:
+        """A copy; what is called makes a memory of it, of the cells that are not 0."""
+        geometry, layers = self.geometry, self.layers.copy()
+
+        def made() -> Memory:
+            cells = np.flatnonzero(layers.any(axis=0))
+            values = {
+                "resolution": geometry.resolution,
+                "shape": list(layers.shape),
+                "origin": [geometry.origin_x, geometry.origin_y],
+            }
+            return values, {"cells": cells, "layers": layers.reshape(len(layers), -1)[:, cells]}
+
+        return made
+
+    def restore(self, memory: Memory) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        values, arrays = memory
+        resolution, (count, rows, cols) = values["resolution"], values["shape"]
+        if resolution != self.geometry.resolution or count != len(self.layers):
+            raise ValueError(f"{count} layers of {resolution} m, not as these cells")
+        x, y = values["origin"]
+        layers = np.zeros((count, rows, cols))
+        cells = arrays["cells"]
+        if len(cells) and not 0 <= cells.min() <= cells.max() < layers[0].size:
+            raise ValueError("cells beyond the grid")
+        layers.reshape(len(layers), -1)[:, cells] = arrays["layers"]
+        self.geometry = GridGeometry(resolution, rows, cols, float(x), float(y))
+        self.layers = layers
 
 
 def _growth(missing: int) -> int:

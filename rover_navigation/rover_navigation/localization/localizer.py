@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.burger import BurgerModel
 from rover_common.geometry import Pose, compose, distance_between, inverse, wrap_angle
+from rover_common.saved_state import Memory, joined, part_of
 from rover_common.sensor_types import LaserScan, SensorBatch, WheelOdometry
 from rover_navigation.localization.dead_reckoning import DeadReckoning
 from rover_navigation.localization.pose_buffer import PoseBuffer
@@ -59,6 +61,46 @@ class Localizer:
     def newest_odometry(self) -> WheelOdometry | None:
         """The last message."""
         return self._reckoning.newest
+
+    def memory(self) -> Callable[[], Memory]:
+        """A copy, once it is ready; what is called makes a memory of it.
+
+        Without the scan that waits for its odometry, and the last one for its free side.
+        """
+        matched, made = self._matched, self.map.memory()
+        values = {
+            "is_lost": self.is_lost,
+            "relocations": self.relocations,
+            "bad_scans": self._bad_scans,
+            "matched": [matched.x, matched.y, matched.yaw],
+            "covariance": self.covariance.tolist(),
+        }
+        parts = {
+            "pose": (values, {}),
+            "reckoning": (self._reckoning.memory(), {}),
+            "buffer": self.buffer.memory(),
+            "tilt": self._tilt.memory(),
+        }
+        return lambda: joined(map=made(), **parts)
+
+    def restore(self, memory: Memory) -> None:
+        """Go on with the map and the pose whose memory it is, instead of standing for a first map.
+
+        Raises ValueError, TypeError or KeyError for anything else, and is not to be used then.
+        """
+        values, _ = part_of(memory, "pose")
+        self.map.restore(part_of(memory, "map"))
+        self._reckoning.restore(part_of(memory, "reckoning")[0])
+        self.buffer.restore(part_of(memory, "buffer"))
+        self._tilt.restore(part_of(memory, "tilt"))
+        x, y, yaw = values["matched"]
+        self._matched = Pose(float(x), float(y), float(yaw))
+        self.covariance = np.array(values["covariance"], float).reshape(3, 3)
+        self.is_lost, self._bad_scans = bool(values["is_lost"]), int(values["bad_scans"])
+        self.relocations = int(values["relocations"])
+        if self.buffer.latest() is None or not self.map.has_walls:
+            raise ValueError("no map, or no pose in it")
+        self.is_ready = True
 
     def free_side(self) -> int:
         """+1 where the last scan shows more free ground to the left, else -1."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.grid import GridGeometry
 from rover_common.map_encoding import EDGE, UNKNOWN
+from rover_common.saved_state import Memory
 from rover_common.types import GridMap
 from rover_navigation.localization.growing_grid import GrowingGrid
 
@@ -30,6 +33,14 @@ class LogOddsMap:
     def geometry(self) -> GridGeometry:
         """Where its cells are."""
         return self._grid.geometry
+
+    def memory(self) -> Callable[[], Memory]:
+        """As GrowingGrid.memory."""
+        return self._grid.memory()
+
+    def restore(self, memory: Memory) -> None:
+        """As GrowingGrid.restore."""
+        self._grid.restore(memory)
 
     def integrate(self, ends: NDArray[np.float64], origins: NDArray[np.float64]) -> None:
         """Rays (n, 2) [m] in the map frame, each from its origin to the wall at its end."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose, compose, wrap_angle
+from rover_common.saved_state import Memory, joined, part_of
 
 KEPT = 10_000_000_000  # [ns]
 
@@ -29,6 +30,18 @@ class Trajectory:
         if self._stamps[0] < stamp - 2 * KEPT:  # seldom, for it moves all that is kept
             first = bisect_left(self._stamps, stamp - KEPT)
             del self._stamps[:first], self._rows[:first]
+
+    def memory(self) -> Memory:
+        """All that is kept."""
+        rows = np.array(self._rows, float).reshape(-1, 3)
+        return {}, {"stamps": np.array(self._stamps, np.int64), "rows": rows}
+
+    def restore(self, memory: Memory) -> None:
+        """Take what `memory` gave; raises ValueError or KeyError for anything else."""
+        stamps, rows = memory[1]["stamps"], memory[1]["rows"]
+        if rows.shape != (*stamps.shape, 3):
+            raise ValueError(f"{stamps.shape} stamps of {rows.shape} poses")
+        self._stamps, self._rows = stamps.tolist(), [tuple(row) for row in rows.tolist()]
 
     @property
     def newest(self) -> tuple[int, Pose] | None:
@@ -62,6 +75,16 @@ class PoseBuffer:
     def __init__(self) -> None:
         self.odometry = Trajectory()  # odom -> base_footprint
         self.correction = Trajectory()  # map -> odom
+
+    def memory(self) -> Memory:
+        """All that is kept."""
+        parts = {"odometry": self.odometry, "correction": self.correction}
+        return joined(**{name: part.memory() for name, part in parts.items()})
+
+    def restore(self, memory: Memory) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        self.odometry.restore(part_of(memory, "odometry"))
+        self.correction.restore(part_of(memory, "correction"))
 
     def latest(self) -> Pose | None:
         """The newest pose in the map; None before there is one."""

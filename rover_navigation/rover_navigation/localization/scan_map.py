@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.geometry import Pose
+from rover_common.saved_state import Memory, joined, part_of
 from rover_navigation.localization.distance_field import DistanceField
 from rover_navigation.localization.log_odds_map import LogOddsMap
 from rover_navigation.localization.relocation import (
@@ -36,6 +37,26 @@ class ScanMap:
         self._lines = WallLines(resolution)
         self._fields: tuple[LineField, DistanceField] | None = None
         self._taken = np.empty((0, 3))  # (n, 3) where and when: x, y [m], [s]
+
+    @property
+    def begun(self) -> int:
+        """[ns] When its first scan was taken; 0 before there is one."""
+        return round(self._taken[0, 2] * 1e9) if len(self._taken) else 0
+
+    def memory(self) -> Callable[[], Memory]:
+        """A copy; what is called makes a memory of it."""
+        cells, lines, taken = self.cells.memory(), self._lines.memory(), self._taken
+        return lambda: joined(cells=cells(), lines=lines(), scans=({}, {"taken": taken}))
+
+    def restore(self, memory: Memory) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        self.cells.restore(part_of(memory, "cells"))
+        self._lines.restore(part_of(memory, "lines"))
+        taken = part_of(memory, "scans")[1]["taken"]
+        if taken.ndim != 2 or taken.shape[1] != 3:
+            raise ValueError(f"scans of shape {taken.shape}")
+        self._taken = taken
+        self._fields = None
 
     def add(self, points: ScanPoints, pose: Pose) -> None:
         """A scan taken at a pose."""

@@ -8,6 +8,7 @@ from collections import deque
 import numpy as np
 
 from rover_common.geometry import angles_from_quaternion
+from rover_common.saved_state import Memory
 from rover_common.sensor_types import Imu
 
 SAMPLES = 400  # kept: some seconds at 100 Hz
@@ -20,6 +21,21 @@ class TiltMeter:
     def __init__(self) -> None:
         self._samples: deque[tuple[int, float, float]] = deque(maxlen=SAMPLES)
         self.level = (0.0, 0.0)  # [rad] roll, pitch
+
+    def memory(self) -> Memory:
+        """Level, and the samples that it is told from."""
+        stamps = np.array([sample[0] for sample in self._samples], np.int64)
+        angles = np.array([sample[1:] for sample in self._samples], float).reshape(-1, 2)
+        return {"level": list(self.level)}, {"stamps": stamps, "angles": angles}
+
+    def restore(self, memory: Memory) -> None:
+        """Take what `memory` gave; raises ValueError, TypeError or KeyError for anything else."""
+        values, arrays = memory
+        roll, pitch = values["level"]
+        stamps, angles = arrays["stamps"].tolist(), arrays["angles"].tolist()
+        samples = [(at, *each) for at, each in zip(stamps, angles, strict=True)]
+        self.level = float(roll), float(pitch)
+        self._samples = deque(((at, roll, pitch) for at, roll, pitch in samples), SAMPLES)
 
     def add(self, imu: Imu) -> tuple[float, float] | None:
         """Roll and pitch [rad] as measured by one sample; None for one that is not a number."""

@@ -7,6 +7,7 @@ distributions transform (Biber and Strasser, 2003); the shorter one is the wall'
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cv2
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rover_common.grid import GridGeometry
+from rover_common.saved_state import Memory
 from rover_navigation.localization.growing_grid import GrowingGrid
 
 SIGMA = 0.02  # [m] of a point from its wall's line, beside the lidar's error: the pose's, and more
@@ -55,6 +57,14 @@ class WallLines:
     def __init__(self, resolution: float) -> None:
         """resolution [m]"""
         self._grid = GrowingGrid(resolution, 6)  # weights, and weighted x, y, xx, xy, yy
+
+    def memory(self) -> Callable[[], Memory]:
+        """As GrowingGrid.memory."""
+        return self._grid.memory()
+
+    def restore(self, memory: Memory) -> None:
+        """As GrowingGrid.restore."""
+        self._grid.restore(memory)
 
     def add(self, points: NDArray[np.float64], ranges: NDArray[np.float64]) -> None:
         """Points (n, 2) [m] in the map frame, and their ranges (n,) [m]."""

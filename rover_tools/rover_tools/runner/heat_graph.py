@@ -14,6 +14,7 @@ from rover_common.whole_file import write_whole
 from rover_tools.evaluation.heat_setup import HeatSetup
 from rover_tools.output import note
 from rover_tools.report.heat_truth import MAZE, TRUTH
+from rover_tools.runner import mission_state
 from rover_tools.runner.graph import node_command
 from rover_tools.runner.node_heat_watch import SIMULATOR, HeatWatch
 from rover_tools.runner.run import ProcessRun, reserved_run
@@ -23,6 +24,7 @@ NODES = {
     "navigator_node": "rover_navigation",
     "heat_node": "rover_heat",
 }
+KEPT = ("navigator_node", "heat_node")  # those that go on when they are started again
 PARAMETERS = "parameters.yaml"
 ANSWER_DEADLINE = 60.0  # [s] of wall time: a slow machine changes nothing
 
@@ -33,9 +35,10 @@ HeatProcesses = ProcessRun[HeatWatch]
 def heat_graph(folder: Path, seed: int, setup: HeatSetup) -> Iterator[HeatProcesses]:
     """Start the nodes in the folder's maze and wait until they are connected.
 
-    The simulator stands still until it is resumed; everything ends with the block. Raises
-    DomainError, GraphNotReadyError or ProcessDiedError.
+    The simulator stands still until it is resumed; everything ends with the block, and what the
+    nodes have saved goes with it. Raises DomainError, GraphNotReadyError or ProcessDiedError.
     """
+    mission_state.end(folder)  # of a mission that was killed there
     parameters = folder.absolute() / PARAMETERS
     write_whole(parameters, yaml.safe_dump(_parameters(folder.absolute(), seed, setup)))
     with reserved_run(folder, HeatWatch) as run:
@@ -45,6 +48,7 @@ def heat_graph(folder: Path, seed: int, setup: HeatSetup) -> Iterator[HeatProces
         note(f"starting the graph; watch it with ROS_DOMAIN_ID={run.domain_id}")
         run.wait_ready(NODES)
         yield run
+    mission_state.end(folder)
 
 
 def _parameters(folder: Path, seed: int, setup: HeatSetup) -> dict[str, Any]:
@@ -59,9 +63,10 @@ def _parameters(folder: Path, seed: int, setup: HeatSetup) -> dict[str, Any]:
         "answer_deadline": ANSWER_DEADLINE,
         "truth_file": str(folder / TRUTH),
     }
+    kept = {"lockstep": True, "state_dir": str(folder / mission_state.STATE)}
     values = {
         SIMULATOR: simulator,
-        "navigator_node": {"lockstep": True},
-        "heat_node": asdict(setup.config) | {"lockstep": True},
+        "navigator_node": kept,
+        "heat_node": asdict(setup.config) | kept,
     }
     return {f"/**/{node}": {"ros__parameters": each} for node, each in values.items()}

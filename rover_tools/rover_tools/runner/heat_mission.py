@@ -24,7 +24,7 @@ from rover_tools.progress import Progress
 from rover_tools.report.heat_files import write_heat_report
 from rover_tools.report.heat_truth import MAZE, HeatTruth
 from rover_tools.runner.graph import default_parameters
-from rover_tools.runner.heat_graph import HeatProcesses, heat_graph
+from rover_tools.runner.heat_graph import KEPT, HeatProcesses, heat_graph
 from rover_tools.runner.node_heat_watch import SIMULATOR, HeatWatch, Stamped, StateReport
 from rover_tools.runner.page import start_page
 from rover_tools.runner.recording import recording
@@ -55,12 +55,14 @@ def run_heat_graph(
         if page:
             start_page(run, default_parameters(), open_page)
         with recording(run, record, "heat"):
+            run.processes.respawn(KEPT)
             run.watch.resume_simulator()
             _wait(run, setup.config.time_limit)
             run.processes.end(SIMULATOR)  # only then is the truth written whole
     truth = HeatTruth.load(folder)
     ended = measured(run.watch, truth.ticks, maze.start)
     result = heat_mission_result(maze, seed, setup, ended, time.monotonic() - start)
+    result |= run.processes.remarks()
     write_result(folder, result)
     if record:
         _report(folder, f"{maze.name}, {setup.label}", truth, result)

@@ -78,11 +78,12 @@ class AttemptingRamp(Driving):
             parts.ramps.done = self._look.done
             return
         if parts.agenda.payloads == 0 and not self._launch.signalled:
-            self._look = RampLook(parts)
+            self._look, parts.ramps.served = RampLook(parts), True
             return
         self._launch.update(tick, None)
         if self._launch.signalled_now:
-            parts.agenda.payloads -= 1
+            parts.spend_payload(tick.time)
+            parts.ramps.served = True
             parts.notices.append("launch: the last payload, on the ramp")
         if self._launch.done or self._launch.missed:
             self._look = RampLook(parts)

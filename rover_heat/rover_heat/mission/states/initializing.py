@@ -69,6 +69,7 @@ class Initializing(HeatBehavior):
             "navigator": parts.navigator.is_ready,
             "scan": "scan" not in parts.inputs.missing,
             "level": parts.tilt.measured,
+            "launcher": frame.time >= parts.launcher_works_until,
         }
         return [name for name, is_there in there.items() if not is_there]
 

@@ -36,7 +36,7 @@ class Launching(Driving):
             number = self._approach.target
             assert number is not None
             self._parts.sources.mark_delivered(number)
-            self._parts.agenda.payloads -= 1
+            self._parts.spend_payload(tick.time)
             self._parts.notices.append(f"launch: payload for source {number}")
 
     def event(self, tick: HeatTick) -> Event | None:
