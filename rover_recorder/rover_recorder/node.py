@@ -47,7 +47,7 @@ from rover_recorder.conversions import (
     type_of,
 )
 from rover_recorder.errors import RecordingError
-from rover_recorder.known_listener import KnownListener
+from rover_recorder.node_listener import KnownListener
 from rover_recorder.schemas import begins_with_stamp, definition
 from rover_recorder.types import Topic
 from rover_recorder.writer import RecordingWriter

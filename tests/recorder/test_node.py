@@ -11,12 +11,10 @@ from array import array
 import cv2
 import numpy as np
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from recordings_by_hand import write_recording
-from rover_interfaces.msg import RoverStatus
 from sensor_msgs.msg import CompressedImage, Image
 from std_msgs.msg import String
 from telemetry import IMAGE, telemetry
@@ -27,7 +25,7 @@ from rover_common.geometry import Pose
 from rover_common.ros import conversions, qos
 from rover_decision.node import DecisionNode
 from rover_perception.node import PerceptionNode
-from rover_recorder.node import NEEDED, RecorderNode
+from rover_recorder.node import RecorderNode
 from rover_recorder.reader import open_recording
 from rover_simulator.wire.unity_client import UnityClient
 from rover_tools.runner.recording import recorder_command
@@ -145,27 +143,6 @@ def test_the_graph_is_recorded_with_the_cameras_own_files(ros, tmp_path):
     record = next(recording.records([f"/{topics.COMPRESSED_IMAGE}"]))
     assert deserialize_message(record.data, CompressedImage).data.tobytes() == IMAGE
     assert recording.counts[f"/{topics.ODOMETRY}"] >= 1
-
-
-def test_it_is_ready_when_each_publisher_that_reports_was_heard_after_all_were_subscribed(
-    ros, graph, tmp_path
-):
-    """Not before: a publisher that has not found it yet does not send to it."""
-    recorder = ros.add(RecorderNode, folder=str(tmp_path / "run"), mission="drive")
-    foreign = ros.add(lambda **kwargs: Node("foreign", **kwargs))
-    kinds = {topics.COMPRESSED_IMAGE: CompressedImage, topics.ODOMETRY: Odometry}
-    for topic in NEEDED["drive"]["bridge"]:
-        graph.create_publisher(kinds.get(topic, RoverStatus), topic, qos.FRAME)
-    for topic in NEEDED["drive"]["perception"]:
-        foreign.create_publisher(String, topic, qos.LATCHED)  # it reports to nobody
-    diagnostics = graph.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-    peers = recorder._diagnostics._peers
-    assert ros.spin_until(peers["perception"])
-    assert ros.spin_until(lambda: diagnostics.get_subscription_count() >= 2)
-    assert not peers["bridge"]()
-    diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name="/other: peers")]))
-    diagnostics.publish(DiagnosticArray(status=[DiagnosticStatus(name="/graph: peers")]))
-    assert ros.spin_until(peers["bridge"])
 
 
 def test_a_full_disk_ends_the_recording_and_nothing_else(ros, graph, tmp_path, monkeypatch):
