@@ -16,7 +16,7 @@ from typing import Any
 from hypothesis import HealthCheck, settings
 
 CASES = int(os.environ.get("FUZZ_CASES", "500"))  # of pure functions, all tests together
-SEQUENCES = int(os.environ.get("FUZZ_SEQUENCES", "3"))  # of all topics, for each node
+SEQUENCES = int(os.environ.get("FUZZ_SEQUENCES", "2"))  # of all topics, for each node
 WIRE_CASES = int(os.environ.get("FUZZ_WIRE_CASES", "50"))  # telemetries over a socket
 LONG = CASES > 500 or SEQUENCES > 3 or WIRE_CASES > 50
 TALLY: Counter[str] = Counter()  # cases by test

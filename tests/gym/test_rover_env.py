@@ -81,13 +81,13 @@ def test_actions_and_observations_are_in_their_units(env):
 
 def test_the_time_limit_truncates(env):
     env = RoverEnv(size=SIZE, time_limit=0.4)
-    env.reset(seed=1)
+    env.reset(options={"world": 1})
     ends = [env.step(BRAKE)[2:4] for _ in range(5)]
     assert ends == [(False, False)] * 4 + [(False, True)]
 
 
 def test_a_pickup_without_a_sample_brakes_instead_of_freezing(env):
-    env.reset(seed=1)
+    env.reset(options={"world": 1})
     assert env.step(PICKUP)[0]["picking_up"] == 0
     before = env.step(AHEAD)[0]["pose"][5]
     assert env.step(AHEAD)[0]["pose"][5] > before

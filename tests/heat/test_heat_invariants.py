@@ -57,7 +57,7 @@ frames = pytest.mark.parametrize("frame", FRAMES.values(), ids=FRAMES)
 @frames
 def test_a_state_at_rest_never_moves_and_never_launches(state, frame):
     driven = reach(state)
-    for _ in range(20):
+    for _ in range(10):
         decision = driven.tick(**frame)
         if decision.state in AT_REST:
             assert decision.twist == STAND
@@ -128,7 +128,7 @@ def test_a_pause_holds_until_resume(state, frame):
 @frames
 def test_whatever_comes_it_keeps_its_limits_and_launches_only_standing_and_level(state, frame):
     driven = reach(state)
-    for _ in range(30):
+    for _ in range(20):
         decision = driven.tick(**frame)
         twist = decision.twist
         if twist is not None:
