@@ -28,12 +28,14 @@ class DeadMan:
     def controls(self, time: float, frame: float, held: Controls, moving: bool) -> Controls:
         """What to hold instead of the last command at this time [s], as a frame [s] begins.
 
-        It brakes with the last frame that begins in time, and never in the first one.
+        It brakes with the last frame that begins in time, and never in the first one. By the wall
+        clock a command comes up to a frame before the one that it counts from: so long it has
+        waited already.
         """
         if self._braking:
             return STOP
         silence = 0.0 if self._heard is None else time - self._heard
-        due = silence > 0.0 and silence + frame > self.seconds
+        due = silence > 0.0 and silence + 2 * frame > self.seconds
         if not due or not (moving or _drives(held)):
             if moving and held.brake == 0.0:
                 self.longest = max(self.longest, silence + frame)
