@@ -131,7 +131,7 @@ def main() -> None:
         running_graph(Path(folder), parameters_file=PARAMETERS) as run,
         simulating(simulation, run, FRAME_STEPS),
     ):
-        run.processes.respawn(NODES)
+        run.processes.respawn(NODES, options.faults)
         for node, number in islice(cycle(FAULTS), options.faults):
             name = f"{node} {'stopped' if number == signal.SIGSTOP else 'killed'}"
             seconds = brake_time(simulation, run, node, number)
