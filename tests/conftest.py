@@ -25,6 +25,7 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:  # the same, below nohup
 
 import pytest  # noqa: E402
 import rclpy  # noqa: E402
+from hypothesis import settings  # noqa: E402
 from rclpy.context import Context  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 from rclpy.node import Node  # noqa: E402
@@ -33,6 +34,8 @@ from rclpy.parameter import Parameter  # noqa: E402
 from rover_common.ros.fast_dds import use_profiles  # noqa: E402
 from rover_tools.runner.domain import free_domain  # noqa: E402
 
+settings.register_profile("rover", deadline=None)  # a busy machine is no fault
+settings.load_profile("rover")
 HOMES = itertools.count()
 WAIT = 10.0  # [s] what a test waits at most for a thing to happen
 

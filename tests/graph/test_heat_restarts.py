@@ -20,7 +20,7 @@ from rover_tools.runner.node_heat_watch import SIMULATOR, StateReport
 SEED, WAIT = 3, 60.0  # [s]
 # [s] of wall time in which the simulator waits for a mission that was killed; longer than that
 # waits for its navigator.
-DEADLINE = 6.0
+DEADLINE = 15.0
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ from burger_simulator.truth import Truth
 from rover_common import topics
 from rover_common.ros import qos
 from rover_common.ros.conversions import stamp_of
+from rover_heat import node_lockstep
 from rover_heat.config import HeatConfig
 from rover_heat.conversions import heat_state_of
 from rover_heat.mission.chart import State
@@ -91,8 +92,9 @@ def test_graph_and_loop_run_the_same_mission_bit_for_bit(graph):
     assert len(truths[-1].launches) == 1
 
 
-def test_the_graph_goes_on_standing_without_its_navigator(graph):
+def test_the_graph_goes_on_standing_without_its_navigator(graph, monkeypatch):
     """Nothing hangs, and the mission says what is missing."""
+    monkeypatch.setattr(node_lockstep, "PATIENCE", 2.0)  # [s] less than the simulator's
     graph.robot._lockstep._deadline = 5.0
     assert graph.ros.spin_until(lambda: len(graph.truths) >= 100, timeout=100.0)
     graph.navigator._step_when_complete = lambda: None  # it lives, and says nothing
