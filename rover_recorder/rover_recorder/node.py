@@ -179,11 +179,11 @@ class RecorderNode(CheckedNode):
 
     def _is_connected(self, peer: str) -> bool:
         """Whether all topics that are needed of it are recorded from their next message on."""
-        topics = self._needed[peer]
-        if not self._records(topics):
+        needed = self._needed[peer]
+        if not self._records(needed):
             return False
         if peer not in self._ready and self._listener is not None:
-            names = [self._recorded[self.resolve_topic_name(topic)].topic_name for topic in topics]
+            names = [self._recorded[self.resolve_topic_name(topic)].topic_name for topic in needed]
             if all(map(self._listener.known_by_publishers, names)):
                 self._ready.add(peer)
         return peer in self._ready
