@@ -28,6 +28,7 @@ from rover_common.errors import RoverError
 from rover_common.ros.checked_node import CheckedNode
 from rover_common.ros.conversions import stamp_of
 from rover_common.ros.diagnostics import NodeDiagnostics
+from rover_common.ros.fast_dds import use_patient_profiles
 from rover_common.ros.parameters import declare_parameters
 from rover_common.ros.priority import give_way
 from rover_common.ros.runner import (
@@ -203,6 +204,7 @@ def record(args: list[str] | None = None) -> None:
     """Record until SIGINT or SIGTERM. Raises RecordingError, or OSError when the disk is full."""
     stop = StopSignals()
     give_way()
+    use_patient_profiles()
     # rclpy's own handlers would end the subscriptions before what was published has arrived.
     with start_errors():
         start_ros(args, signal_handler_options=SignalHandlerOptions.NO)

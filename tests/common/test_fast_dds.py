@@ -5,10 +5,17 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
-from rover_common.ros.fast_dds import PROFILES, VARIABLE
+from rover_common.ros.fast_dds import (
+    PATIENT_PROFILES,
+    PROFILES,
+    VARIABLE,
+    use_patient_profiles,
+)
 
 NAVIGATION_MAP = 800 * 800  # [bytes] the largest message
 # A node as run_node starts it; prints the size of the shared memory that its messages lie in.
@@ -45,5 +52,28 @@ def test_a_node_has_room_for_several_maps_unless_the_user_says_otherwise(value: 
     assert (int(done.stdout.split()[-1]) > 8 * NAVIGATION_MAP) == (value is None)
 
 
-def test_the_settings_lie_beside_the_module() -> None:
-    assert PROFILES.is_file()
+def settings(path: Path) -> dict[str, str]:
+    """The text of each element that has one, by its name."""
+    elements = ElementTree.parse(path).iter()
+    return {each.tag.split("}")[-1]: each.text.strip() for each in elements if each.text}
+
+
+def test_only_the_time_until_one_is_taken_for_dead_differs_for_the_patient() -> None:
+    usual, patient = settings(PROFILES), settings(PATIENT_PROFILES)
+    assert usual.pop("healthy_check_timeout_ms") == "1000"
+    assert patient.pop("healthy_check_timeout_ms") == "10000"
+    assert usual == patient
+    assert len(usual) > 10
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [(None, PATIENT_PROFILES), (PROFILES, PATIENT_PROFILES), ("/mine.xml", "/mine.xml"), ("", "")],
+)
+def test_what_the_user_names_is_for_the_patient_too(monkeypatch, before, after) -> None:
+    if before is None:
+        monkeypatch.delenv(VARIABLE, raising=False)
+    else:
+        monkeypatch.setenv(VARIABLE, str(before))
+    use_patient_profiles()
+    assert os.environ[VARIABLE] == str(after)
