@@ -46,24 +46,41 @@ class _Said:
     thermal: deque[ThermalFrame] = field(default_factory=lambda: deque(maxlen=MOST))
     launches: int = 0
 
-    def holds(self, tick: Tick) -> bool:
+    def holds(self, tick: Tick, since: int) -> bool:
+        """since: [ns] of the tick before. Once something newer is said, the tick is over."""
+        imus = [imu.stamp for imu in self.imus if imu.stamp > since]
+        odometry = [sample.stamp for sample in self.odometry if sample.stamp > since]
         sensors = [frame.sensor for frame in self.thermal]
         return (
-            len(self.scans) >= tick.scans
-            and len(self.imus) >= tick.imus
-            and len(self.odometry) >= tick.odometry
+            max(imus + odometry, default=tick.stamp) <= tick.stamp
+            and len(imus) >= tick.imus
+            and len(odometry) >= tick.odometry
+            and len(self.scans) >= tick.scans
             and sensors.count(1) >= tick.thermal[0]
             and sensors.count(2) >= tick.thermal[1]
             and self.launches >= tick.launches
         )
 
+    def until(self, stamp: int) -> _Said:
+        """Only what was said of the time until `stamp` [ns]."""
+        kept = _Said(thermal=self.thermal, launches=self.launches)
+        kept.scans.extend(scan for scan in self.scans if scan.stamp <= stamp)
+        kept.imus.extend(imu for imu in self.imus if imu.stamp <= stamp)
+        kept.odometry.extend(sample for sample in self.odometry if sample.stamp <= stamp)
+        return kept
+
 
 class BatchCollector:
-    """In lockstep a batch is complete when it has what its tick counts; nothing is told twice."""
+    """In lockstep a batch is complete when it has what its tick counts; nothing is told twice.
+
+    A tick of which something was lost, as in a node that has just been started, is never complete:
+    its samples come with the next tick, and do not count there.
+    """
 
     def __init__(self) -> None:
         self._said = _Said()
         self._tick: Tick | None = None
+        self._newest, self._since = -1, -1  # [ns] of the newest tick, and of the one before
 
     def add(self, said: LaserScan | Imu | WheelOdometry | ThermalFrame) -> None:
         if isinstance(said, LaserScan):
@@ -80,12 +97,14 @@ class BatchCollector:
         self._said.launches += 1
 
     def add_tick(self, tick: Tick) -> None:
-        self._tick = tick
+        if tick.stamp < self._newest:  # the clock began anew
+            self._newest, self._said = -1, self._said.until(tick.stamp)
+        self._tick, self._since, self._newest = tick, self._newest, tick.stamp
 
     def take_complete(self) -> SensorBatch | None:
         """The batch of the last tick, once all of it is there; its frames arrived with it."""
         tick = self._tick
-        if tick is None or not self._said.holds(tick):
+        if tick is None or not self._said.holds(tick, self._since):
             return None
         frames = [replace(frame, stamp=tick.stamp) for frame in self._said.thermal]
         self._said.thermal = deque(frames, maxlen=MOST)

@@ -138,6 +138,34 @@ def test_a_launch_that_is_counted_is_waited_for():
     assert collector.take_complete() is None
 
 
+def test_a_tick_of_which_something_was_lost_does_not_delay_the_next():
+    collector = BatchCollector()
+    collector.add_tick(Tick(50, imus=1, odometry=1))
+    collector.add(imu(45))  # the odometry never comes
+    collector.add(odometry(95))
+    assert collector.take_complete() is None  # which belongs to the next tick
+    collector.add_tick(Tick(100, imus=1, odometry=1))
+    assert collector.take_complete() is None  # the sample of the tick before does not count
+    collector.add(imu(95))
+    assert collector.take_complete() == SensorBatch(100, (), (imu(45), imu(95)), (odometry(95),))
+    collector.add_tick(Tick(150, imus=1))
+    assert collector.take_complete() is None
+    collector.add(imu(145))
+    assert collector.take_complete() == SensorBatch(150, (), (imu(145),))
+
+
+def test_a_clock_that_begins_anew_leaves_nothing_of_the_time_before():
+    collector = BatchCollector()
+    collector.add_tick(Tick(1000, imus=1))
+    collector.add(imu(1000))
+    assert collector.take_complete() is not None
+    collector.add(imu(1050))
+    collector.add(scan(1050))
+    collector.add(odometry(45))
+    collector.add_tick(Tick(50, odometry=1))
+    assert collector.take_complete() == SensorBatch(50, (), (), (odometry(45),))
+
+
 def test_without_ticks_a_batch_is_what_came():
     collector = BatchCollector()
     collector.add(imu(3))
