@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+SETTLED = 0.5  # [s] of wall time without a newcomer: all have found each other by then
+
 
 class Settling:
     """Whether something has stayed the same for a while; once it has, it stays settled."""
@@ -30,10 +32,11 @@ class Lockstep:
         self._deadline = deadline
         self._stamp: int | None = None
         self._missing: set[str] = set()
-        self._began = 0.0
+        self._until = 0.0
+        self._speakers = 0
 
     def begin(self, stamp: int, now: float) -> None:
-        self._stamp, self._began = stamp, now
+        self._stamp, self._until = stamp, now + self._deadline
         self._missing = set(self._peers)
 
     def answer(self, peer: str, stamp: int) -> bool:
@@ -51,10 +54,16 @@ class Lockstep:
         """Something else is on its way to this tick."""
         self._missing.add(also)
 
+    def follow(self, speakers: int, now: float) -> None:
+        """`speakers`: who is there to answer; one who has just come may not know of this tick."""
+        if speakers > self._speakers:
+            self._until = min(self._until, now + SETTLED)
+        self._speakers = speakers
+
     @property
     def missing(self) -> list[str]:
         return sorted(self._missing)
 
     def expired(self, now: float) -> bool:
         """Whether something is missing and the deadline is over."""
-        return bool(self._missing) and now - self._began >= self._deadline
+        return bool(self._missing) and now >= self._until

@@ -22,7 +22,7 @@ from std_msgs.msg import Header, Int32
 from std_srvs.srv import Trigger
 
 from burger_simulator.config import BurgerConfig, SensorFrameConfig
-from burger_simulator.lockstep import Lockstep, Settling
+from burger_simulator.lockstep import SETTLED, Lockstep, Settling
 from burger_simulator.node_publishers import SensorPublishers
 from burger_simulator.simulation import TICK, BurgerSimulation
 from burger_simulator.truth_file import TruthFile
@@ -41,7 +41,6 @@ from rover_common.ros.simulator_control import ControlError, SimulatorControl
 from rover_common.sensor_types import Twist
 
 SILENT = 0.7  # [s] of wall time without a report, after which a node of the team is silent
-SETTLED = 0.5  # [s] of wall time without another subscriber: all have found each other by then
 LOOK, LOOK_FAST = 0.005, 0.0005  # [s] of wall time between two looks whether a tick is due
 ENTITY, WORLD = "burger", "world"  # of the services
 DRIVER, MISSION, LAUNCH = "driver", "mission", "flywheel"
@@ -155,6 +154,7 @@ class BurgerNode(ManagedNode):
 
     def _may_go_on(self, now: float) -> bool:
         """In lockstep: all have been here for a while, and have answered or let it expire."""
+        self._lockstep.follow(self._mission.get_publisher_count(), now)
         if not self._settling.done:
             missing = [name for name, connected in self._peers().items() if not connected()]
             if missing:

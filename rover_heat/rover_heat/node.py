@@ -117,13 +117,13 @@ class HeatNode(CheckedNode):
         }
 
     def _look(self) -> None:
-        """In lockstep it is there for the simulator when its navigator is there."""
+        """In lockstep it is there for the simulator when all that it needs is there."""
         if self._lockstep is None:
             return
         if self._mission_tick is None:
             heard = self._hazard_map.get_subscription_count() > 0
             speaks = self._lockstep.subscription.get_publisher_count() > 0
-            if heard and speaks and self._navigator.is_present and self._velocity.connected:
+            if heard and speaks and all(is_here() for is_here in self._peers().values()):
                 kind, topic = Header, topics.MISSION_TICK
                 self._mission_tick = self.create_publisher(kind, topic, qos.CONTROL)
         self._lockstep.check_patience()

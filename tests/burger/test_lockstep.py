@@ -16,7 +16,7 @@ from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import Float32MultiArray, Header, Int32, String
 from test_simulation import written
 
-from burger_simulator.lockstep import Lockstep, Settling
+from burger_simulator.lockstep import SETTLED, Lockstep, Settling
 from burger_simulator.node import BurgerNode
 from burger_simulator.simulation import BurgerSimulation
 from burger_simulator.world.generator import generate_maze
@@ -186,3 +186,13 @@ def test_missing_answers_and_their_deadline():
     assert lockstep.missing == ["flywheel"]
     lockstep.arrived("flywheel")
     assert lockstep.missing == []
+    lockstep.follow(1, 14.0)
+    assert not lockstep.expired(15.0)
+    lockstep.begin(150, 20.0)
+    lockstep.follow(2, 21.0)
+    assert not lockstep.expired(21.0 + SETTLED - 0.1)
+    lockstep.follow(2, 21.0 + SETTLED - 0.1)
+    assert lockstep.expired(21.0 + SETTLED)
+    lockstep.begin(200, 30.0)
+    lockstep.follow(1, 30.0)  # one has gone
+    assert not lockstep.expired(34.9)

@@ -48,7 +48,6 @@ def log_of(run: HeatProcesses, node: str) -> str:
     return (run.folder / "log" / f"{node}.log").read_text()
 
 
-@pytest.mark.skipif("FAULTS" not in os.environ, reason="for an idle machine, with FAULTS=1")
 def test_a_mission_ends_well_though_both_nodes_were_killed(run):
     wait(run, lambda report: report.state is State.EXPLORING and report.sources_delivered == 1)
     for node in KEPT:
