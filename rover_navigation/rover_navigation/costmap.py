@@ -19,6 +19,7 @@ from rover_navigation.scale import Scale
 from rover_navigation.types import BlockedPlace
 
 MARGIN = 12  # [cells] kept around what is known
+NOWHERE = np.float32(1e9)  # [cells] to a cell that there is none of
 
 
 @dataclass(frozen=True)
@@ -159,9 +160,10 @@ def part_of(whole: GridGeometry, part: CellRegion) -> GridGeometry:
 
 
 def distance_to(mask: NDArray[np.bool_], resolution: float) -> NDArray[np.float32]:
-    """[m] from each cell's centre to the border of the nearest true cell."""
+    """[m] from each cell's centre to the border of the nearest true cell, or very many."""
     cells = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, 5)
-    return np.maximum(0.0, np.asarray(cells, np.float32) * resolution - resolution / 2)
+    cells = np.minimum(np.asarray(cells, np.float32), NOWHERE)
+    return np.maximum(0.0, cells * resolution - resolution / 2)
 
 
 def _grown(mask: NDArray[np.bool_], cells: int) -> NDArray[np.bool_]:

@@ -82,22 +82,30 @@ class Region:
         """
         if not self._members.any():
             return np.full(len(x), -1, np.int32)
-        node, away = self._nodes_of(self._nearest_wide, x, y)
+        node, away = self._nodes_of(self._nearest_wide, self._wide_cells, x, y)
         far = away > min(reach, self._wide_reach)
         if far.any():
-            narrow, nearer = self._nodes_of(self._nearest, x, y)
+            narrow, nearer = self._nodes_of(self._nearest, self._cells, x, y)
             node, away = np.where(far, narrow, node), np.where(far, nearer, away)
         return np.where(away <= reach, node, -1).astype(np.int32)
 
     def _nodes_of(
-        self, nearest: NDArray[np.int32], x: NDArray[np.float64], y: NDArray[np.float64]
+        self,
+        nearest: NDArray[np.int32],
+        cells: NDArray[np.bool_],
+        x: NDArray[np.float64],
+        y: NDArray[np.float64],
     ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-        """Nodes of the cells that are nearest to those of the points, and how far [m] they are."""
+        """Nodes of the cells that are nearest to those of the points, and how far [m] they are.
+
+        `nearest` of `cells`; what it names is none of them where there is none in its reach.
+        """
         roadmap = self._roadmap
         row, col = roadmap.geometry.nearest_cell_to(x, y)
-        node = roadmap.numbers[nearest[0][row, col], nearest[1][row, col]]
-        away = np.where(node >= 0, np.hypot(roadmap.x[node] - x, roadmap.y[node] - y), np.inf)
-        return node, away
+        row, col = nearest[:, row, col]
+        node = roadmap.numbers[row, col]
+        away = np.hypot(roadmap.x[node] - x, roadmap.y[node] - y)
+        return node, np.where(cells[row, col], away, np.inf)
 
     @cached_property
     def _nearest(self) -> NDArray[np.int32]:
@@ -105,7 +113,11 @@ class Region:
 
     @cached_property
     def _nearest_wide(self) -> NDArray[np.int32]:
-        return self._nearest_cells[1].of(self._cells & self._roadmap.wide)
+        return self._nearest_cells[1].of(self._wide_cells)
+
+    @cached_property
+    def _wide_cells(self) -> NDArray[np.bool_]:
+        return np.asarray(self._cells & self._roadmap.wide)
 
 
 def _nearest_true(mask: NDArray[np.bool_]) -> NDArray[np.int32]:

@@ -123,6 +123,7 @@ class Roadmap:
             steps[number] = -1 - number  # beyond its end every route differs from all others
             steps[number, : len(route)] = route
         parted = (steps[:, None] != steps).argmax(axis=2)  # the first step that differs
+        np.fill_diagonal(parted, 1)  # where none does
         seconds = paths.seconds[0]
         fork = seconds[steps[np.arange(len(nodes))[:, None], parted - 1]]
         along = seconds[nodes][:, None] + seconds[nodes] - 2.0 * fork

@@ -8,8 +8,9 @@ from maps import SCALE, costmap, grid
 from scipy import ndimage
 
 import rover_navigation.local_searches as module
+from rover_common.types import GridMap
 from rover_navigation.plan_layers import PlanLayers
-from rover_navigation.region import NearestCells
+from rover_navigation.region import NearestCells, Region
 from rover_navigation.roadmap import Roadmap
 
 LANES = grid((5, 5, 55, 9), (5, 5, 9, 55), (51, 5, 55, 55), (5, 28, 55, 32))
@@ -87,3 +88,21 @@ def test_the_nearest_cells_of_a_changing_mask_are_those_of_the_mask(seed, reach)
         near = true <= reach
         assert np.allclose(away[near], true[near])
         assert (away[~near] > reach).all()
+
+
+def test_of_one_node_the_time_to_itself_is_none():
+    cells = np.full((7, 13), -1, np.int8)
+    cells[:4, :4] = cells[4:, 4:8] = 51
+    cells[:4, 8:12] = cells[4:, 12] = 0
+    alone = Roadmap(costmap(GridMap(0.25, 0.0, 0.0, cells), body=(0.0, 0.0)), SCALE)
+    assert len(alone) == 1
+    assert alone.seconds_between(alone.shortest_paths([0]), [0, 0]).tolist() == [[0, 0], [0, 0]]
+
+
+def test_a_place_of_which_no_member_is_in_reach_has_no_node():
+    cells = np.full((3, 18), -1, np.int8)
+    cells[:, :4] = cells[:, 16:] = 0
+    apart = Roadmap(costmap(GridMap(1.0, -14.0, -1.0, cells), body=(0.0, 0.0)), SCALE)
+    members = np.array([False, False, True])
+    region = Region(apart, members, SCALE.wide_reach, (NearestCells(2), NearestCells(2)))
+    assert region.nodes_near(apart.x, apart.y, 1.0).tolist() == [-1, -1, 2]
