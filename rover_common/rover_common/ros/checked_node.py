@@ -23,6 +23,10 @@ SAID_AGAIN = 30.0  # [s] of wall time between two lines about the same topic and
 AHEAD = 10_000_000_000  # [ns] that a stamp may be ahead of the node's clock
 
 
+def left_alone(message: Any) -> None:
+    """What is done about a refused message, besides counting it, unless a node says otherwise."""
+
+
 class CheckedNode(Node):
     """Every subscription of it, also one that rclpy makes itself, has an `Entrance`.
 
@@ -50,7 +54,7 @@ class CheckedNode(Node):
         callback: Callable[[Any], Any],
         qos_profile: QoSProfile | int,
         *,
-        refused: Callable[[Any], object] = lambda message: None,
+        refused: Callable[[Any], object] = left_alone,
         raw: bool = False,
         **options: Any,
     ) -> Subscription:
@@ -137,7 +141,7 @@ class Entrance:
         topic: str,
         callback: Callable[[Any], Any],
         check: Callable[[Any], None] | None,
-        refused: Callable[[Any], object] = lambda message: None,
+        refused: Callable[[Any], object] = left_alone,
     ) -> None:
         """check: raises a MessageError; None for raw messages, which are bytes."""
         self._node = node
