@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 
-from rover_bridge.codec import encode_drive, uses_decimal_comma
+from rover_bridge.codec import decimal_mark, encode_drive
 from rover_bridge.insets import Insets
 from rover_bridge.pending_requests import Answer
 from rover_bridge.transport import Transport
@@ -28,8 +28,11 @@ class AnswerSender:
 
     def read(self, client: str, wire: object) -> None:
         """A client's telemetry shows how it writes numbers."""
-        if uses_decimal_comma(wire):
+        mark = decimal_mark(wire)
+        if mark == ",":
             self._comma_clients.add(client)
+        elif mark:  # a value of before was odd, and not the machine
+            self._comma_clients.discard(client)
 
     def forget(self, client: str) -> None:
         """It has left."""

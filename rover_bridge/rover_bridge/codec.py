@@ -103,10 +103,11 @@ def _pixels(data: bytes) -> NDArray[np.uint8]:
     return cv2.cvtColor(image, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)
 
 
-def uses_decimal_comma(wire: object) -> bool:
-    """Whether the machine that wrote this telemetry has a comma for its decimal mark."""
+def decimal_mark(wire: object) -> str:
+    """That of the machine that wrote this telemetry, "." or ","; "" where its speed shows none."""
     speed = wire.get("speed") if isinstance(wire, Mapping) else None
-    return isinstance(speed, str) and "," in speed and "." not in speed
+    marks = [mark for mark in ".," if mark in speed] if isinstance(speed, str) else []
+    return marks[0] if len(marks) == 1 else ""
 
 
 def shows_insets(wire: object) -> bool:

@@ -25,7 +25,10 @@ from rover_recorder.writer import RecordingWriter
 
 MAGIC = b"\x89MCAP0\r\n"  # at the start, and at the end of a whole file
 # What the library raises where a record is torn, or holds what nobody wrote.
-DAMAGE = (McapError, zstandard.ZstdError, struct.error, ValueError, LookupError, MemoryError)
+DAMAGE = (
+    McapError, zstandard.ZstdError, struct.error, ValueError, LookupError, MemoryError,
+    OverflowError,
+)  # fmt: skip
 
 
 def is_whole(path: Path) -> bool:

@@ -147,6 +147,12 @@ def test_a_decimal_comma_is_answered_with_one(ros, bridge):
     assert event.data["throttle"] == "0,2500"
 
 
+def test_one_odd_comma_does_not_count_for_the_next_telemetry(ros, bridge):
+    frames = telemetry(), telemetry(decimal=","), telemetry(), telemetry() | {"speed": "0"}
+    events = answers_to(ros, bridge.port, *frames)
+    assert [event.data["throttle"][1] for event in events] == [".", ",", ".", "."]
+
+
 def test_a_flood_is_answered_telemetry_by_telemetry(ros, bridge):
     count = 200
 

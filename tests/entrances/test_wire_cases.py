@@ -13,7 +13,7 @@ from readers import assert_finite
 from telemetry import telemetry
 from wire_clients import QUIET, Decider, InThread, Unity
 
-from rover_bridge.codec import decode_telemetry, shows_insets, uses_decimal_comma
+from rover_bridge.codec import decimal_mark, decode_telemetry, shows_insets
 from rover_bridge.errors import TelemetryError
 from rover_bridge.node import BridgeNode
 from rover_bridge.wire_format import WireError, WirePacket, check_packet
@@ -24,7 +24,7 @@ from rover_common import topics
 @given(PAYLOADS)
 def test_a_telemetry_is_decoded_to_finite_numbers_or_refused_with_its_defect(wire):
     shows_insets(wire)
-    uses_decimal_comma(wire)
+    decimal_mark(wire)
     try:
         decoded = decode_telemetry(wire)
     except TelemetryError as error:

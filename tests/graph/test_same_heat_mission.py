@@ -95,6 +95,7 @@ def test_graph_and_loop_run_the_same_mission_bit_for_bit(graph):
 def test_the_graph_goes_on_standing_without_its_navigator(graph, monkeypatch):
     """Nothing hangs, and the mission says what is missing."""
     monkeypatch.setattr(node_lockstep, "PATIENCE", 2.0)  # [s] less than the simulator's
+    monkeypatch.setattr(node_lockstep, "PATIENCE_ABSENT", 0.1)
     graph.robot._lockstep._deadline = 5.0
     assert graph.ros.spin_until(lambda: len(graph.truths) >= 100, timeout=100.0)
     graph.navigator._step_when_complete = lambda: None  # it lives, and says nothing
@@ -102,4 +103,4 @@ def test_the_graph_goes_on_standing_without_its_navigator(graph, monkeypatch):
     assert graph.ros.spin_until(lambda: len(graph.truths) >= count + 30, timeout=100.0)
     assert graph.mission._core.state is State.HOLD
     assert graph.truths[-1].speed == pytest.approx(0.0, abs=0.01)
-    assert graph.mission._lockstep.missing == 1
+    assert graph.mission._lockstep.missing >= 30

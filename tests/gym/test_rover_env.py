@@ -15,6 +15,8 @@ from gymnasium.utils.env_checker import check_env
 import rover_tools.gym
 from rover_common.vehicle import ROVER
 from rover_simulator.simulation import START_TIME
+from rover_simulator.world.generator import generate_world
+from rover_tools.gym import rover_env
 from rover_tools.gym.rover_env import RoverEnv
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "docs" / "examples" / "agent.py"
@@ -30,7 +32,9 @@ def env():
     env.close()
 
 
-def test_gymnasiums_own_checker_has_nothing_to_say():
+def test_gymnasiums_own_checker_has_nothing_to_say(monkeypatch):
+    world = generate_world(1, SIZE)  # one canyon for all of its ten seeds: each costs seconds
+    monkeypatch.setattr(rover_env, "generate_world", lambda seed, size: world)
     env = gymnasium.make(rover_tools.gym.ID, size=SIZE, render_mode="rgb_array").unwrapped
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 
 import pytest
+from mcap.opcode import Opcode
 from mcap.reader import make_reader
 from recordings_by_hand import fill, text_bytes, write_recording
 from rosbags.rosbag2 import Reader
@@ -127,6 +128,18 @@ def test_a_damaged_chunk_is_told(tmp_path):
     file = write_recording(tmp_path / "run")
     content = bytearray(file.read_bytes())
     content[200:210] = bytes(10)
+    file.write_bytes(content)
+    with pytest.raises(RecordingError, match="is damaged"):
+        list(open_recording(file).records())
+
+
+def test_a_chunk_that_says_it_is_of_impossible_size_is_damaged(tmp_path):
+    file = write_recording(tmp_path / "run")
+    content = bytearray(file.read_bytes())
+    chunk = 8 + 9 + int.from_bytes(content[9:17], "little")  # after the magic and the header
+    assert content[chunk] == Opcode.CHUNK
+    size = slice(chunk + 9 + 16, chunk + 9 + 24)  # after its length, first and last time
+    content[size] = (1 << 63).to_bytes(8, "little")
     file.write_bytes(content)
     with pytest.raises(RecordingError, match="is damaged"):
         list(open_recording(file).records())
