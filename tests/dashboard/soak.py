@@ -1,6 +1,8 @@
 """Measures what the live page costs over time: memory of node and browser, latency of the drive.
 
-python tests/dashboard/soak.py [--minutes 30] [--pairs 10] [--seconds 60]
+Run by hand, on an idle machine:
+
+./rover shell -c 'PYTHONPATH=tests:tests/dashboard:$PYTHONPATH python tests/dashboard/soak.py'
 
 A mission drives in real time, again and again. The page stays open for so many minutes, while the
 memory of the dashboard node and of the browser is taken; then it is closed and opened in turns,
@@ -13,7 +15,6 @@ import asyncio
 import json
 import os
 import statistics
-import sys
 import tempfile
 import time
 from contextlib import suppress
@@ -21,42 +22,17 @@ from pathlib import Path
 
 import click
 import psutil
-
-sys.path.insert(0, str(Path(__file__).parent))
-
 from chromium import Browser, Page, chromium
-from nav_msgs.msg import Odometry
-from rover_interfaces.msg import DriveCommand
+from latency import Latency
 from watched_graph import Watched, watched_graph
 
 from rover_common import topics
-from rover_common.ros import qos
-from rover_common.ros.conversions import command_of, stamp_of
 
 SEED, SIZE = 2, 1.0
 SAMPLE = 15.0  # [s] between two looks at the memory
 SETTLE = 10.0  # [s] of each turn that do not count
 SETTLED = 5.0  # [min] of the beginning in which memory may grow: caches, the browser's own start
 MEBIBYTE = 2**20
-
-
-class Latency:
-    """From the odometry of a frame to its command, as a node beside the graph hears them [ms]."""
-
-    def __init__(self, watched: Watched) -> None:
-        node = watched.run.watch.node
-        self.laps: list[float] = []
-        self._arrived: dict[int, float] = {}
-        node.create_subscription(Odometry, topics.ODOMETRY, self._on_odometry, qos.FRAME)
-        node.create_subscription(DriveCommand, topics.COMMAND, self._on_command, qos.FRAME)
-
-    def _on_odometry(self, message: Odometry) -> None:
-        self._arrived = {stamp_of(message.header.stamp): time.monotonic()}
-
-    def _on_command(self, message: DriveCommand) -> None:
-        arrived = self._arrived.pop(command_of(message)[0], None)
-        if arrived is not None:
-            self.laps.append(1e3 * (time.monotonic() - arrived))
 
 
 def dashboard_process() -> psutil.Process:
@@ -120,8 +96,8 @@ async def in_turns(
     watched: Watched, browser: Browser, page: Page, pairs: int, seconds: float
 ) -> tuple[list[float], list[float], int]:
     """Median latencies [ms] of the turns closed and open; subscriptions left while closed."""
-    latency = Latency(watched)
     node = watched.run.watch.node
+    latency = Latency(node)
     closed, opened, left = [], [], 0
     for _ in range(pairs):
         await page.send("Page.navigate", url="about:blank")
