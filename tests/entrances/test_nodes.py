@@ -96,14 +96,13 @@ def heard_types(node: Any) -> list[tuple[Any, Any]]:
 def hear(node: Any, subscription: Any, message: Any) -> None:
     """As the executor hands it over; what is refused leaves the node as it was."""
     refused = refusals(node)
-    counts = frozenset([id(node.counts)])  # which others hold as well
-    before = snapshot(node, counts)
+    before = snapshot(node, node.counts)
     subscription.callback(message)
     failed = [key for key in node.counts if key.startswith("failed_")]
     assert not failed
     wholly = subscription.msg_type is not TFMessage
     if wholly and subscription.callback._refused is left_alone and refusals(node) > refused:
-        assert snapshot(node, counts) == before
+        assert snapshot(node, node.counts) == before
 
 
 def refusals(node: Any) -> int:
