@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from typing import Any
 
 import cv2
@@ -40,3 +41,9 @@ def telemetry(**changes: Any) -> dict[str, str]:
         "image": IMAGE,
     }
     return format_telemetry(**(values | changes))
+
+
+def picture_bomb() -> str:
+    """A picture that claims 32760 x 32760 pixels, in base64."""
+    frame, size = IMAGE.index(b"\xff\xc0"), (32760).to_bytes(2, "big") * 2
+    return base64.b64encode(IMAGE[: frame + 5] + size + IMAGE[frame + 9 :]).decode()

@@ -9,30 +9,22 @@ from typing import Any
 
 import pytest
 import websocket
-from telemetry import IMAGE, telemetry
+from telemetry import IMAGE, picture_bomb, telemetry
 from wire_clients import QUIET, Unity, answers_to, run_clients
 
 from rover_bridge import active_client
 from rover_bridge.counters import Counter
 from rover_bridge.node_publishers import TelemetryPublishers
 
-FRAME = IMAGE.index(b"\xff\xc0")
-
 
 def counts(bridge: Any) -> Counts[str]:
     return bridge.node._diagnostics.counts
 
 
-def bomb() -> str:
-    """A picture that claims 32760 x 32760 pixels, in base64."""
-    size = (32760).to_bytes(2, "big") * 2
-    return base64.b64encode(IMAGE[: FRAME + 5] + size + IMAGE[FRAME + 9 :]).decode()
-
-
 @pytest.mark.parametrize(
     ("image", "reason"),
     [
-        (bomb(), "image is 32760 x 32760 pixels"),
+        (picture_bomb(), "image is 32760 x 32760 pixels"),
         (base64.b64encode(IMAGE[:2500] + b"\xff\xd9").decode(), "before its last row"),
     ],
     ids=["claims_much", "cut_short"],
