@@ -24,9 +24,11 @@ from rover_common import topics
 from rover_common.ros import qos
 from rover_common.ros import sensor_conversions as sensors
 from rover_common.ros.conversions import header_of
+from rover_common.ros.runner import EventsExecutor
 from rover_common.sensor_batches import BatchCollector
 from rover_common.sensor_types import SensorBatch, Twist
 
+EXECUTOR = EventsExecutor  # of the fixture `ros`
 LAUNCH_TICK = 20
 HEARD_BY_BOTH = (
     (LaserScan, topics.SCAN, qos.SCAN),

@@ -16,6 +16,7 @@ from burger_simulator.truth import Truth
 from rover_common import topics
 from rover_common.ros import qos
 from rover_common.ros.conversions import stamp_of
+from rover_common.ros.runner import EventsExecutor
 from rover_heat import node_lockstep
 from rover_heat.config import HeatConfig
 from rover_heat.conversions import heat_state_of
@@ -25,6 +26,7 @@ from rover_navigation.navigator_config import NavigatorConfig
 from rover_navigation.node import NavigatorNode
 from rover_tools.evaluation.heat_loop import HeatLoop, HeatStep
 
+EXECUTOR = EventsExecutor  # of the fixture `ros`
 SEED, SAMPLES, NAVIGATOR_SEED = 3, 100, 5
 TICKS = 780  # beyond the first launch, up to the ramp
 MISSION = {"deliver": "at_once"}
