@@ -1,6 +1,7 @@
 """What killed processes leave in shared memory goes with the next start; nothing else does."""
 
 import fcntl
+import mmap
 import os
 import signal
 import subprocess
@@ -48,6 +49,19 @@ def test_files_of_a_living_process_stay(tmp_path, kind):
         fcntl.flock(lock, kind)
         assert remove_stale_memory(tmp_path) == []
     assert all(path.exists() for path in paths)
+
+
+def test_a_port_without_locks_goes_when_no_process_has_it_any_more(tmp_path):
+    port, other = make(tmp_path, "fastrtps_port7411")[0], make(tmp_path, "fastrtps_port7413")[0]
+    for lock in tmp_path.glob("*_el"):
+        lock.unlink()
+    port.write_bytes(bytes(mmap.PAGESIZE))
+    os.utime(port, (time.time() - 5.0,) * 2)
+    with port.open("r+b") as file, mmap.mmap(file.fileno(), 0):
+        assert remove_stale_memory(tmp_path) == [other.name]
+        assert port.exists()
+    assert remove_stale_memory(tmp_path) == [port.name]
+    assert not any(tmp_path.iterdir())
 
 
 def test_files_that_were_just_made_stay(tmp_path):
