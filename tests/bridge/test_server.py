@@ -18,6 +18,7 @@ from eventlet.websocket import RFC6455WebSocket
 from hypothesis import given
 from hypothesis import strategies as st
 from telemetry import telemetry
+from waiting import holds
 
 from rover_bridge.server import SocketServer
 from rover_bridge.transport import (
@@ -84,8 +85,9 @@ def test_a_closed_server_leaves_no_thread_and_no_open_file():
     files, threads = open_files(), threading.active_count()
     for _ in range(5):
         serve_once()
-    assert threading.active_count() <= threads  # one of another test may end meanwhile
-    assert open_files() <= files
+    # One of another test may end meanwhile, and on a busy machine a client's thread ends later.
+    assert holds(lambda: threading.active_count() <= threads, 10.0)
+    assert holds(lambda: open_files() <= files, 10.0)
 
 
 def test_the_port_is_free_again_after_closing(events):
