@@ -43,7 +43,13 @@ def telemetry(**changes: Any) -> dict[str, str]:
     return format_telemetry(**(values | changes))
 
 
+def claiming(width: int, height: int) -> bytes:
+    """The picture, with another size in its header."""
+    frame = IMAGE.index(b"\xff\xc0")
+    size = height.to_bytes(2, "big") + width.to_bytes(2, "big")
+    return IMAGE[: frame + 5] + size + IMAGE[frame + 9 :]
+
+
 def picture_bomb() -> str:
     """A picture that claims 32760 x 32760 pixels, in base64."""
-    frame, size = IMAGE.index(b"\xff\xc0"), (32760).to_bytes(2, "big") * 2
-    return base64.b64encode(IMAGE[: frame + 5] + size + IMAGE[frame + 9 :]).decode()
+    return base64.b64encode(claiming(32760, 32760)).decode()

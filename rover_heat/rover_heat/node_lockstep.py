@@ -24,7 +24,7 @@ from rover_heat.node_sensors import HeatSensors
 from rover_navigation.node_client import ActionNavigator
 
 # [s] of wall time: one that is started again is there by then; the simulator's is longer. And of
-# each tick of one that is absent: at 20 ticks a second the clock runs at a fifth of wall time.
+# each tick of one that is absent: a minute of wall time is some eight seconds of the mission.
 PATIENCE, PATIENCE_ABSENT = 12.0, 0.25
 
 

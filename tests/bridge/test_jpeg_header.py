@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from telemetry import IMAGE, jpeg
+from telemetry import IMAGE, claiming, jpeg
 
 from rover_bridge import codec
 from rover_bridge.errors import ImageSizeError, JpegError, TelemetryError
@@ -13,12 +13,6 @@ from rover_bridge.jpeg_header import END, MAX_BYTES, START, read_header
 
 FRAME = IMAGE.index(b"\xff\xc0")
 SCAN = IMAGE.index(b"\xff\xda") + 14  # where the coded picture begins
-
-
-def claiming(width: int, height: int) -> bytes:
-    """The picture, with another size in its header."""
-    size = height.to_bytes(2, "big") + width.to_bytes(2, "big")
-    return IMAGE[: FRAME + 5] + size + IMAGE[FRAME + 9 :]
 
 
 @pytest.fixture

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
-from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
 
 from rover_common.ros.fast_dds import (
-    PATIENT_PROFILES,
+    DEAD_AFTER,
     PROFILES,
     VARIABLE,
     use_patient_profiles,
+    use_profiles,
 )
 
 NAVIGATION_MAP = 800 * 800  # [bytes] the largest message
@@ -52,28 +52,23 @@ def test_a_node_has_room_for_several_maps_unless_the_user_says_otherwise(value: 
     assert (int(done.stdout.split()[-1]) > 8 * NAVIGATION_MAP) == (value is None)
 
 
-def settings(path: Path) -> dict[str, str]:
-    """The text of each element that has one, by its name."""
-    elements = ElementTree.parse(path).iter()
-    return {each.tag.split("}")[-1]: each.text.strip() for each in elements if each.text}
+def test_the_settings_ask_for_nothing_that_is_not_set(monkeypatch) -> None:
+    asked = re.findall(r"\$\{(\w+)\}", PROFILES.read_text())
+    assert asked == [DEAD_AFTER]
+    monkeypatch.delenv(DEAD_AFTER, raising=False)
+    use_profiles()
+    assert os.environ[DEAD_AFTER] == "1000"
 
 
-def test_only_the_time_until_one_is_taken_for_dead_differs_for_the_patient() -> None:
-    usual, patient = settings(PROFILES), settings(PATIENT_PROFILES)
-    assert usual.pop("healthy_check_timeout_ms") == "1000"
-    assert patient.pop("healthy_check_timeout_ms") == "10000"
-    assert usual == patient
-    assert len(usual) > 10
-
-
-@pytest.mark.parametrize(
-    ("before", "after"),
-    [(None, PATIENT_PROFILES), (PROFILES, PATIENT_PROFILES), ("/mine.xml", "/mine.xml"), ("", "")],
-)
-def test_what_the_user_names_is_for_the_patient_too(monkeypatch, before, after) -> None:
-    if before is None:
+@pytest.mark.parametrize("named", [None, "/mine.xml", ""])
+def test_the_patient_wait_longer_with_the_file_that_the_environment_names(
+    monkeypatch, named
+) -> None:
+    monkeypatch.setenv(DEAD_AFTER, "1000")  # as of a parent
+    if named is None:
         monkeypatch.delenv(VARIABLE, raising=False)
     else:
-        monkeypatch.setenv(VARIABLE, str(before))
+        monkeypatch.setenv(VARIABLE, named)
     use_patient_profiles()
-    assert os.environ[VARIABLE] == str(after)
+    assert os.environ[DEAD_AFTER] == "5000"
+    assert os.environ[VARIABLE] == (str(PROFILES) if named is None else named)

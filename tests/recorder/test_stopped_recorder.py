@@ -5,19 +5,29 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+from collections.abc import Iterator
 
+import pytest
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
 from rover_common.ros import qos
 from rover_recorder.reader import open_recording
+from rover_tools.runner.domain import free_domain
 from rover_tools.runner.recording import recorder_command
 
 WAIT = 60.0  # [s]
 TOPICS = [f"/text_{number}" for number in range(20)]
 COUNT = 50  # texts on each: a publisher keeps four, and by default DDS 512 in all
 STOPPED = 2.0  # [s] in which they are published; by default DDS takes it for dead after 1 s
+
+
+@pytest.fixture
+def domain_id() -> Iterator[int]:
+    """One in which no recorder was killed: for some seconds the next one would have its port."""
+    with free_domain() as domain:
+        yield domain
 
 
 def test_a_recorder_that_stands_still_for_seconds_loses_nothing(ros, tmp_path, domain_id):
