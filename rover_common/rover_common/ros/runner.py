@@ -22,6 +22,7 @@ from rclpy.task import Future
 
 from rover_common.errors import CANNOT_START, RoverError
 from rover_common.ros.fast_dds import use_profiles
+from rover_common.ros.memory import return_large_arrays
 from rover_common.ros.parameters import unknown_parameters
 from rover_common.ros.shared_memory import remove_stale_memory
 
@@ -46,6 +47,7 @@ def start_ros(args: list[str] | None = None, **options: Any) -> None:
     if not (domain.isdecimal() and int(domain) <= MAX_DOMAIN):
         raise StartError(f"ROS_DOMAIN_ID is '{domain}', not a number from 0 to {MAX_DOMAIN}")
     use_profiles()
+    return_large_arrays()
     remove_stale_memory()
     try:
         rclpy.init(args=args, **options)
