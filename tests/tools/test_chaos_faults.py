@@ -10,7 +10,6 @@ import socketserver
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -175,8 +174,7 @@ def test_a_shape_of_the_graph_is_published_until_the_end():
 
     def publish(shape: str, stopped: Callable[[], bool]) -> int:
         story.append(shape)
-        while not stopped():
-            time.sleep(0.01)
+        assert holds(stopped, WAIT)
         story.append("stopped")
         return 1
 

@@ -99,11 +99,11 @@ def test_a_process_is_started_again_as_often_as_it_is_told(tmp_path):
 @pytest.mark.skipif(not shutil.which(WITH_PARENT[0]), reason="needs setpriv")
 def test_processes_end_with_a_runner_that_is_killed(tmp_path):
     code = (
-        "import sys, time; from pathlib import Path; "
+        "import signal, sys; from pathlib import Path; "
         "from rover_tools.runner.processes import Processes; "
         "processes = Processes(Path(sys.argv[1]), {}); "
         "processes.start('worker', [sys.executable, '-c', 'import os, signal; "
-        "print(os.getpid(), flush=True); signal.pause()']); time.sleep(60)"
+        "print(os.getpid(), flush=True); signal.pause()']); signal.pause()"
     )
     log = tmp_path / "worker.log"
     runner = subprocess.Popen([sys.executable, "-c", code, str(tmp_path)])
