@@ -247,4 +247,4 @@ def _frame_of(parts: Parts) -> Frame:
 
 def main() -> None:
     """Entry point of `ros2 run rover_decision decision_node`."""
-    run_node(DecisionNode)
+    run_node(DecisionNode, keeps_maps=True)

@@ -215,4 +215,4 @@ class HeatNode(CheckedNode):
 
 def main() -> None:
     """Entry point of `ros2 run rover_heat heat_node`."""
-    run_node(HeatNode)
+    run_node(HeatNode, keeps_maps=True)

@@ -217,4 +217,4 @@ class NavigatorNode(CheckedNode):
 
 def main() -> None:
     """Entry point of `ros2 run rover_navigation navigator_node`."""
-    run_node(NavigatorNode)
+    run_node(NavigatorNode, keeps_maps=True)

@@ -246,4 +246,4 @@ def _due(last: int | None, now: int, period: float) -> bool:
 
 def main() -> None:
     """Entry point of `ros2 run rover_perception perception_node`."""
-    run_node(PerceptionNode)
+    run_node(PerceptionNode, keeps_maps=True)

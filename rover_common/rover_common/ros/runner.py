@@ -47,7 +47,6 @@ def start_ros(args: list[str] | None = None, **options: Any) -> None:
     if not (domain.isdecimal() and int(domain) <= MAX_DOMAIN):
         raise StartError(f"ROS_DOMAIN_ID is '{domain}', not a number from 0 to {MAX_DOMAIN}")
     use_profiles()
-    return_large_arrays()
     remove_stale_memory()
     try:
         rclpy.init(args=args, **options)
@@ -100,13 +99,16 @@ def run_node(
     factory: Callable[[], Node],
     args: list[str] | None = None,
     executor_class: Callable[[], Executor] = EventsExecutor,
+    keeps_maps: bool = False,
 ) -> None:
     """Make the node and spin it in this thread.
 
     A signal ends the loop alone, not the context: a callback that runs may still publish, and the
-    node closes while ROS is there.
+    node closes while ROS is there. One that keeps maps does not grow from mission to mission.
     """
     stop = StopSignals()
+    if keeps_maps:
+        return_large_arrays()
     with start_errors():
         start_ros(args, signal_handler_options=SignalHandlerOptions.NO)
     node = None
